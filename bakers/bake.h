@@ -1,6 +1,7 @@
 // The baker: triangles of a scene to a BrickField. Exact distances by a traversal over a hierarchy that Embree builds.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 

@@ -47,7 +47,7 @@ float mirrorSign(const glm::mat4& destinationFromSource);
 /// Smallest and largest factor by which the linear part stretches a direction (singular values).
 glm::vec2 scaleRange(const glm::mat4& destinationFromSource);
 
-/// Unit vector to octahedral coordinates in [-1,1]^2 (Meyer et al. 2010) and back; C++ twin of shaders/lib/octahedral.glsl.
+/// Unit vector to octahedral coordinates in [-1,1]^2 (Meyer et al. 2010) and back; twin of shaders/lib/octahedral.glsl.
 glm::vec2 octahedralFromDirection(glm::vec3 direction);
 glm::vec3 directionFromOctahedral(glm::vec2 octahedral);
 
