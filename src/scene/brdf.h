@@ -1,0 +1,50 @@
+// How surfaces answer light: the metallic-roughness BRDF of glTF 2.0, appendix B. Twin of shaders/lib/brdf.glsl; the
+// reference shades with it. Only formulas: no scene, no textures. All vectors are unit and of one space.
+#pragma once
+
+#include "core/math.h"
+
+namespace brickfield {
+
+/// Least perceptual roughness: alpha = 0.002. Below it the denominator of GGX at its peak, alpha^2 = 4e-6, comes within
+/// some dozen roundings of single precision (6e-8) and the highlight breaks into noise.
+inline constexpr float kLeastRoughness = 0.045f;
+
+/// A material's answer to light, worked out from its parameters (appendix B.2 and B.3).
+struct SurfaceBrdf {
+  glm::vec3 diffuse{0.0f}; ///< c_diff: base colour, none for metals
+  glm::vec3 f0{0.04f};     ///< reflectance at normal incidence: 0.04, base colour for metals
+  float alpha = 1.0f;      ///< roughness squared, roughness at least kLeastRoughness
+};
+
+/// baseColor linear; metallic, roughness in [0,1]
+SurfaceBrdf makeBrdf(glm::vec3 baseColor, float metallic, float roughness);
+
+/// GGX (Trowbridge and Reitz 1975; Walter et al. 2007), per steradian. Zero below the horizon.
+float distributionGgx(float alpha, float nDotH);
+
+/// Smith masking and shadowing over 4 (N.L)(N.V), height-correlated (Heitz 2014, eq. 99), as the glTF sample viewer
+/// does; appendix B's text names the separable form, which is darker by a few percent at grazing angles on rough
+/// surfaces.
+float visibilitySmith(float alpha, float nDotL, float nDotV);
+
+/// Schlick 1994.
+glm::vec3 fresnelSchlick(glm::vec3 f0, float vDotH);
+
+/// The whole BRDF, without the cosine: (1 - F) c_diff / pi + F D V. Zero where light or viewer are below the horizon.
+///
+/// returns   per steradian; symmetric in the two directions
+/// proved by tests/unit/scene/brdf_test.cpp
+glm::vec3 evaluateBrdf(const SurfaceBrdf& brdf, glm::vec3 normal, glm::vec3 towardsViewer, glm::vec3 towardsLight);
+
+/// What a white environment returns through the specular lobe is f0 * x + y: a fit of the integral (Karis, "Physically
+/// Based Shading on Mobile", 2014), within 0.04 of it.
+glm::vec2 environmentBrdf(float roughness, float nDotV);
+
+/// KHR_lights_punctual: 1/d^2, windowed to end at the range (0: no end). distance > 0
+float distanceFalloff(float distance, float range);
+
+/// KHR_lights_punctual: 1 inside the inner cone, 0 outside the outer one.
+float coneFalloff(float cosine, float innerConeRadians, float outerConeRadians);
+
+} // namespace brickfield
