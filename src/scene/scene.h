@@ -24,7 +24,8 @@ struct Image {
 enum class Wrap : std::uint8_t { Repeat, ClampToEdge, MirroredRepeat };
 enum class Filter : std::uint8_t { Nearest, Linear };
 
-struct Texture {
+/// An image with the way to sample it ("texture" in glTF; the GPU room has a Texture of its own).
+struct SceneTexture {
   int image = -1;
   Wrap wrapU = Wrap::Repeat;
   Wrap wrapV = Wrap::Repeat;
@@ -179,7 +180,7 @@ struct SceneRoots {
 struct Scene {
   std::string name;                       ///< of the file, for messages
   std::vector<Image> images;
-  std::vector<Texture> textures;
+  std::vector<SceneTexture> textures;
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
   std::vector<Node> nodes;

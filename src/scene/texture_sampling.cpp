@@ -119,7 +119,7 @@ std::uint32_t wrapIndex(std::int64_t index, std::uint32_t size, Wrap wrap) {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(index, 0, n - 1));
 }
 
-glm::vec4 sampleLevel(const LevelReader& level, const Texture& texture, Filter filter, glm::vec2 uv) {
+glm::vec4 sampleLevel(const LevelReader& level, const SceneTexture& texture, Filter filter, glm::vec2 uv) {
   const glm::uvec2 size = level.size();
   const glm::vec2 position = uv * glm::vec2(size);
   const auto texel = [&](std::int64_t x, std::int64_t y) {
@@ -163,7 +163,7 @@ const TextureSampler::Pyramid& TextureSampler::pyramidOf(int image, TextureEncod
 glm::vec4 TextureSampler::sample(int textureIndex, TextureEncoding encoding, glm::vec2 uvTexture,
                                  const glm::mat2& texturePerFootprint) const {
   if (textureIndex < 0) return glm::vec4(1.0f);
-  const Texture& texture = scene_.textures[static_cast<std::size_t>(textureIndex)];
+  const SceneTexture& texture = scene_.textures[static_cast<std::size_t>(textureIndex)];
   if (texture.image < 0) return glm::vec4(1.0f);
   const Image& image = scene_.images[static_cast<std::size_t>(texture.image)];
   if (image.rgba.empty()) return glm::vec4(1.0f);
