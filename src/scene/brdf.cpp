@@ -46,6 +46,12 @@ glm::vec3 evaluateBrdf(const SurfaceBrdf& brdf, glm::vec3 normal, glm::vec3 towa
   return (1.0f - fresnel) * brdf.diffuse / kPi + fresnel * lobe;
 }
 
+glm::vec3 visibleNormal(glm::vec3 normal, glm::vec3 towardsViewer) {
+  constexpr float kLeastCosine = 1e-3f; // a twentieth of a degree above the horizon
+  const float cosine = glm::dot(normal, towardsViewer);
+  return cosine >= kLeastCosine ? normal : glm::normalize(normal + (kLeastCosine - cosine) * towardsViewer);
+}
+
 glm::vec2 environmentBrdf(float roughness, float nDotV) {
   const glm::vec4 kSlope(-1.0f, -0.0275f, -0.572f, 0.022f), kOffset(1.0f, 0.0425f, 1.04f, -0.04f);
   const glm::vec4 r = roughness * kSlope + kOffset;

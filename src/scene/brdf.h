@@ -37,6 +37,9 @@ glm::vec3 fresnelSchlick(glm::vec3 f0, float vDotH);
 /// proved by tests/unit/scene/brdf_test.cpp
 glm::vec3 evaluateBrdf(const SurfaceBrdf& brdf, glm::vec3 normal, glm::vec3 towardsViewer, glm::vec3 towardsLight);
 
+/// The shading normal, bent just over the horizon of the viewer where interpolation or a normal map turned it away.
+glm::vec3 visibleNormal(glm::vec3 normal, glm::vec3 towardsViewer);
+
 /// What a white environment returns through the specular lobe is f0 * x + y: a fit of the integral (Karis, "Physically
 /// Based Shading on Mobile", 2014), within 0.04 of it.
 glm::vec2 environmentBrdf(float roughness, float nDotV);
