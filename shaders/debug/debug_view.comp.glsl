@@ -1,0 +1,53 @@
+// One layer of the frame as a picture; which one is a uniform.
+#include "lib/gbuffer.glsl"
+#include "lib/tone_curve.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = kOverdrawUnit) uniform sampler2D box_overdraw;
+layout(binding = 0, rgba8) writeonly uniform image2D picture;
+
+// Dark blue over green and yellow to red, monotonic in lightness up to yellow.
+vec3 heat(float unit) {
+  float x = clamp(unit, 0.0, 1.0);
+  return clamp(vec3(2.5 * x - 0.75, x < 0.75 ? 1.8 * x : 4.05 - 3.6 * x, 0.35 + 0.5 * x - 2.0 * x * x), 0.0, 1.0);
+}
+
+// A hue for each node: the golden ratio keeps neighbours apart.
+vec3 idColor(uint node) {
+  float hue = fract(float(node) * 0.61803399 + 0.1);
+  vec3 rgb = clamp(abs(fract(hue + vec3(0.0, 2.0 / 3.0, 1.0 / 3.0)) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
+  return mix(vec3(1.0), rgb, 0.65) * (0.7 + 0.3 * fract(float(node) * 0.38196601));
+}
+
+float viewUnit(float value) { return (value - frame.debugRange.x) / max(frame.debugRange.y - frame.debugRange.x, 1e-6); }
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return;
+  uint packedId = texelFetch(id, pixel, 0).r;
+  uint kind = kindOfId(packedId);
+  vec3 originWorld, directionWorld;
+  viewRay(ndcFromPixel(vec2(pixel) + 0.5), originWorld, directionWorld);
+  float t = rayParameterOfDepth(originWorld, directionWorld, texelFetch(depth, pixel, 0).r);
+  uvec2 traced = texelFetch(trace, pixel, 0).rg;
+
+  vec3 shown = vec3(0.0);
+  switch (frame.size.w) {
+    case DEBUG_VIEW_DEPTH: shown = kind == KIND_NONE ? vec3(0.0) : vec3(1.0 - clamp(viewUnit(t), 0.0, 0.95)); break;
+    case DEBUG_VIEW_NORMAL: shown = kind == KIND_NONE ? vec3(0.0) : directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).xy) * 0.5 + 0.5; break;
+    case DEBUG_VIEW_ALBEDO: shown = srgbFromLinear(texelFetch(albedo, pixel, 0).rgb) * float(kind != KIND_NONE); break;
+    case DEBUG_VIEW_ID: shown = kind == KIND_NONE ? vec3(0.0) : idColor(nodeOfId(packedId)); break;
+    case DEBUG_VIEW_KIND: shown = kind == KIND_NONE ? vec3(0.08) : kind == KIND_MESH ? vec3(0.25, 0.5, 0.9) : vec3(0.95, 0.6, 0.2); break;
+    case DEBUG_VIEW_STEPS: shown = kind == KIND_SDF ? heat(viewUnit(float(traced.x))) : vec3(0.08); break;
+    case DEBUG_VIEW_BRICKS: {
+      // A colour for each brick in which a ray ended, lit from the eye so that shapes stay readable.
+      float facing = abs(dot(directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).xy), directionWorld));
+      shown = kind == KIND_SDF ? idColor(traced.y) * (0.4 + 0.6 * facing) : vec3(0.08);
+      break;
+    }
+    case DEBUG_VIEW_OVERDRAW: shown = heat(viewUnit(texelFetch(box_overdraw, pixel, 0).r)); break;
+    default: break;
+  }
+  imageStore(picture, pixel, vec4(shown, 1.0));
+}

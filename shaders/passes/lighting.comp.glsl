@@ -1,0 +1,77 @@
+// Deferred light of the whole frame: direct light without shadows, image-based light, emission, sky.
+#include "lib/brdf.glsl"
+#include "lib/environment.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/spherical_harmonics.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(std430, binding = kLightBinding) readonly buffer LightBlock { LightRow lights[]; };
+layout(binding = kEnvironmentUnit) uniform sampler2D environment_prefiltered;
+layout(binding = kEnvironmentBrdfUnit) uniform sampler2D environment_brdf;
+layout(binding = 0, rgba16f) writeonly uniform image2D color;
+
+// Irradiance that reaches a point facing the light, and the direction to it.
+vec3 lightAt(LightRow light, vec3 pointWorld, out vec3 toLight) {
+  uint kind = uint(light.position.w);
+  if (kind == LIGHT_SUN) {
+    toLight = -light.direction.xyz;
+    return light.intensity.rgb;
+  }
+  vec3 offset = light.position.xyz - pointWorld;
+  float distance2 = max(dot(offset, offset), 1e-8);
+  toLight = offset * inversesqrt(distance2);
+  // A sphere light's candela hold for its far field; nearer than its surface nothing is defined.
+  distance2 = max(distance2, light.intensity.w * light.intensity.w);
+  float falloff = 1.0 / distance2;
+  if (light.direction.w > 0.0) {
+    // KHR_lights_punctual's window.
+    float ratio2 = distance2 / (light.direction.w * light.direction.w);
+    falloff *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
+  }
+  if (kind == LIGHT_SPOT) {
+    float angular = clamp(dot(light.direction.xyz, -toLight) * light.cone.x + light.cone.y, 0.0, 1.0);
+    falloff *= angular * angular;
+  }
+  return light.intensity.rgb * falloff;
+}
+
+vec3 environmentLight(Surface surface, vec3 normal, vec3 toViewer, float occlusion) {
+  float nDotV = clamp(dot(normal, toViewer), 0.0, 1.0);
+  vec3 f0 = mix(vec3(0.04), surface.baseColor, surface.metallic);
+  vec2 scaleBias = textureLod(environment_brdf, vec2(nDotV, surface.roughness), 0.0).rg;
+  vec3 specularShare = f0 * scaleBias.x + scaleBias.y;
+  float mip = surface.roughness * float(frame.counts.w - 1u);
+  vec3 specular = textureLod(environment_prefiltered, equirectFromDirection(reflect(-toViewer, normal)), mip).rgb;
+  vec3 diffuse = evaluateHarmonics(frame.irradiance, normal) / kPi * surface.baseColor * (1.0 - surface.metallic);
+  return occlusion * ((1.0 - specularShare) * diffuse + specularShare * specular);
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return;
+  vec3 originWorld, directionWorld;
+  viewRay(ndcFromPixel(vec2(pixel) + 0.5), originWorld, directionWorld);
+  if (kindOfId(texelFetch(id, pixel, 0).r) == KIND_NONE) {
+    imageStore(color, pixel, vec4(textureLod(environment_prefiltered, equirectFromDirection(directionWorld), 0.0).rgb, 1.0));
+    return;
+  }
+  vec4 packed = texelFetch(material, pixel, 0);
+  Surface surface = Surface(texelFetch(albedo, pixel, 0).rgb, packed.r, packed.g);
+  vec3 radiance;
+  if (packed.a > 0.5) {
+    radiance = surface.baseColor;
+  } else {
+    float t = rayParameterOfDepth(originWorld, directionWorld, texelFetch(depth, pixel, 0).r);
+    vec3 pointWorld = originWorld + t * directionWorld;
+    vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).xy);
+    vec3 toViewer = -directionWorld;
+    radiance = texelFetch(emission, pixel, 0).rgb + environmentLight(surface, normal, toViewer, packed.b);
+    for (uint i = 0u; i < frame.size.z; ++i) {
+      vec3 toLight;
+      vec3 irradiance = lightAt(lights[i], pointWorld, toLight);
+      radiance += irradiance * reflectedShare(surface, normal, toViewer, toLight);
+    }
+  }
+  imageStore(color, pixel, vec4(min(radiance, vec3(65504.0)), 1.0));
+}

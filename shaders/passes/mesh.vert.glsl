@@ -1,0 +1,37 @@
+// Triangle meshes into the G-buffer: one vertex format, the draw's row from an instance attribute.
+#include "lib/frame.glsl"
+#include "lib/octahedral.glsl"
+#include "shared/mesh_params.h"
+
+layout(std430, binding = kMeshDrawBinding) readonly buffer MeshDrawBlock { MeshDraw meshDraws[]; };
+
+layout(location = 0) in vec3 positionObject;
+layout(location = 1) in vec2 normalOct;
+layout(location = 2) in vec4 uv;
+layout(location = 3) in vec2 tangentOct;
+layout(location = 4) in vec4 color;
+layout(location = 5) in uint bitangentSign;
+layout(location = 6) in uint drawIndex;
+
+layout(location = 0) out vec3 pointWorld;
+layout(location = 1) out vec3 normalWorld;
+layout(location = 2) out vec4 tangentWorld; // w: sign of the bitangent, 0 without tangents
+layout(location = 3) out vec4 uvSets;
+layout(location = 4) out vec4 vertexColor;
+layout(location = 5) flat out uint draw;
+
+void main() {
+  MeshDraw row = meshDraws[drawIndex];
+  mat3 linear = mat3(row.worldFromObject);
+  bool mirrored = (uint(row.ids.z) & DRAW_MIRRORED) != 0u;
+  // The cofactor matrix carries normals under any affine transform; a mirror turns its result around.
+  mat3 cofactor = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1]));
+  pointWorld = (row.worldFromObject * vec4(positionObject, 1.0)).xyz;
+  normalWorld = cofactor * directionFromOctahedral(normalOct) * (mirrored ? -1.0 : 1.0);
+  float handedness = bitangentSign == 0u ? 0.0 : bitangentSign == 1u ? 1.0 : -1.0;
+  tangentWorld = vec4(linear * directionFromOctahedral(tangentOct), mirrored ? -handedness : handedness);
+  uvSets = uv;
+  vertexColor = color;
+  draw = drawIndex;
+  gl_Position = frame.clipFromWorld * vec4(pointWorld, 1.0);
+}

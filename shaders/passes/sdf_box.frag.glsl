@@ -1,0 +1,105 @@
+// Traces one SDF object through one pixel and writes the G-buffer. Conservative depth: a hit lies behind the box face,
+// and with reverse Z behind means smaller; the value is clamped to the face's own, so the promise holds to the last bit.
+#include "lib/brick_trace.glsl"
+#include "lib/frame.glsl"
+#include "lib/octahedral.glsl"
+#include "lib/packing.glsl"
+
+layout(depth_less) out float gl_FragDepth;
+
+layout(binding = kDepthMeshUnit) uniform sampler2D depth_mesh;
+#ifdef COUNTERS_ON
+layout(std430, binding = kPassBufferABinding) buffer CounterBlock { uint counters[COUNTERS]; };
+#endif
+
+layout(location = 0) flat in uint entry;
+
+layout(location = 0) out vec4 normal_world_oct;
+layout(location = 1) out vec4 albedo;
+layout(location = 2) out vec4 material;
+layout(location = 3) out vec3 emission;
+layout(location = 4) out uint id;
+layout(location = 5) out uvec2 trace;
+
+vec3 toGrid(SdfInstance instance, vec4 worldHomogeneous) {
+  return vec3(dot(instance.gridFromWorld[0], worldHomogeneous), dot(instance.gridFromWorld[1], worldHomogeneous),
+              dot(instance.gridFromWorld[2], worldHomogeneous));
+}
+
+// Ray parameters inside the box, from the near plane on.
+vec2 boxRange(SdfInstance instance, vec3 originGrid, vec3 directionGrid, float tNear) {
+  vec3 safe = mix(directionGrid, vec3(1e-20), equal(directionGrid, vec3(0.0)));
+  vec3 a = (instance.boxMin.xyz - originGrid) / safe, b = (instance.boxMax.xyz - originGrid) / safe;
+  vec3 lower = min(a, b), upper = max(a, b);
+  return vec2(max(max(lower.x, lower.y), max(lower.z, tNear)), min(upper.x, min(upper.y, upper.z)));
+}
+
+// Attributes of the surface at a point, from the level's attribute bricks; white, rough and unlit-free without them.
+void surfaceAttributes(SdfLevel level, vec3 pointLevel) {
+  albedo = vec4(1.0);
+  material = vec4(0.0, 1.0, 1.0, 0.0);
+  emission = vec3(0.0);
+  if (level.attributes.x == SDF_NO_ATTRIBUTES) return;
+  vec3 p = clamp(pointLevel, vec3(0.0), vec3(level.cells.yzw * BRICK_CELLS));
+  ivec3 brick = brickOfPoint(level, p);
+  uint slot = cellOfBrick(level.attributes.x, level, brick);
+  if ((slot & CELL_EMPTY) != 0u) return;
+  ivec3 size = textureSize(brick_base_color, 0);
+  vec3 uvw = (vec3(texelOfSlot(slot, size)) + (p - vec3(brick) * float(BRICK_CELLS)) + 0.5) / vec3(size);
+  albedo = vec4(textureLod(brick_base_color, uvw, 0.0).rgb, 1.0);
+  material = textureLod(brick_material, uvw, 0.0);
+  emission = textureLod(brick_emission, uvw, 0.0).rgb;
+}
+
+void main() {
+  SdfInstance instance = sdfInstances[entry & VISIBLE_INDEX_MASK];
+  SdfLevel level = sdfLevels[instance.ids.y + int((entry >> VISIBLE_LEVEL_SHIFT) & VISIBLE_LEVEL_MASK)];
+
+  vec3 originWorld, directionWorld;
+  viewRay(ndcFromPixel(gl_FragCoord.xy), originWorld, directionWorld);
+  vec3 originGrid = toGrid(instance, vec4(originWorld, 1.0));
+  vec3 directionGrid = toGrid(instance, vec4(directionWorld, 0.0));
+  vec2 range = boxRange(instance, originGrid, directionGrid, rayParameterOfNear(directionWorld));
+  // A mesh in front ends the ray; the slack leaves near ties to the depth test.
+  float tMesh = rayParameterOfDepth(originWorld, directionWorld, texelFetch(depth_mesh, ivec2(gl_FragCoord.xy), 0).r);
+  range.y = min(range.y, tMesh * 1.0001);
+
+  TraceHit hit = TraceHit(false, false, 0.0, 0u, 0u);
+  // The trace runs relative to its entry: t from far away would spend float digits on the way to the box.
+  vec3 entryGrid = originGrid + range.x * directionGrid;
+  if (range.x <= range.y)
+    hit = traceBricks(level, entryGrid, directionGrid, vec2(0.0, range.y - range.x),
+                      (instance.ids.w & int(SDF_DOUBLE_SIDED)) != 0, frame.counts.z);
+#ifdef COUNTERS_ON
+  atomicAdd(counters[COUNTER_FRAGMENTS], 1u);
+  atomicAdd(counters[COUNTER_STEPS], hit.steps);
+  atomicAdd(counters[COUNTER_BRICK_READS], hit.brickReads);
+  if (hit.hit) atomicAdd(counters[COUNTER_HITS], 1u);
+  if (hit.steps >= frame.counts.z) atomicAdd(counters[COUNTER_OUT_OF_STEPS], 1u);
+#endif
+  if (!hit.hit) discard;
+
+  float t = range.x + hit.t;
+  float depth = depthOfPoint(originWorld + t * directionWorld);
+  gl_FragDepth = min(depth, gl_FragCoord.z);
+#ifdef COUNTERS_ON
+  // Rounding of the two ways to the same depth stays within a few units of the last place; more is a broken promise.
+  if (depth > gl_FragCoord.z * (1.0 + 1e-4)) atomicAdd(counters[COUNTER_PROMISE_BROKEN], 1u);
+#endif
+
+  vec3 pointLevel = (entryGrid + hit.t * directionGrid) * level.scale.x;
+  vec3 gradientLevel = fieldGradient(level, pointLevel, kNormalRadiusVoxels);
+  // Normals are carried by the transpose of gridFromWorld; this holds for shears and mirrors too.
+  vec3 normalWorld = gradientLevel.x * instance.gridFromWorld[0].xyz + gradientLevel.y * instance.gridFromWorld[1].xyz +
+                     gradientLevel.z * instance.gridFromWorld[2].xyz;
+  normalWorld = hit.backFace ? -normalWorld : normalWorld;
+  normalWorld = dot(normalWorld, normalWorld) > 0.0 ? normalize(normalWorld) : -directionWorld;
+  vec2 normalOct = octahedralFromDirection(normalWorld);
+  normal_world_oct = vec4(normalOct, normalOct);
+
+  surfaceAttributes(level, pointLevel);
+  id = packId(uint(instance.ids.x), KIND_SDF);
+  ivec3 brick = brickOfPoint(level, pointLevel);
+  uint brickNumber = (uint(brick.z) * level.cells.z + uint(brick.y)) * level.cells.y + uint(brick.x);
+  trace = uvec2(hit.steps, brickNumber + 1u);
+}

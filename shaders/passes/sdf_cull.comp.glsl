@@ -1,0 +1,106 @@
+// Chooses the SDF objects of a frame and how each is drawn. One work group walks over all instances in order, so that
+// the lists keep the scene's order and a frame is the same every time it is drawn.
+//
+// Commands: 0 draws the three faces that look at the eye (18 vertices), 1 the far faces of those whose box the near
+// plane or the eye may cut (36 vertices).
+#include "lib/frame.glsl"
+#include "shared/sdf_params.h"
+
+layout(local_size_x = 256) in;
+
+layout(std430, binding = kSdfInstanceBinding) readonly buffer SdfInstanceBlock { SdfInstance sdfInstances[]; };
+struct DrawCommand { uint vertices, instances, firstVertex, baseInstance; };
+layout(std430, binding = kPassBufferABinding) writeonly buffer CommandBlock { DrawCommand commands[2]; };
+layout(std430, binding = kPassBufferBBinding) writeonly buffer VisibleBlock { uint visible[]; }; // two halves of counts.x
+
+uniform bool reverseOrder; // draws the same objects back to front of the list; the picture must not change
+
+shared uvec2 scan[256];
+
+vec3 rowsTimesPoint(vec4 rows[3], vec3 p) {
+  vec4 h = vec4(p, 1.0);
+  return vec3(dot(rows[0], h), dot(rows[1], h), dot(rows[2], h));
+}
+
+// Whole box outside of one plane of the frustum (the far plane is left out: boxes beyond it cost nothing).
+bool isOutside(SdfInstance instance) {
+  uint outside = 0x1fu;
+  for (uint corner = 0u; corner < 8u; ++corner) {
+    vec3 pick = vec3(corner & 1u, (corner >> 1) & 1u, corner >> 2);
+    vec3 pointWorld = rowsTimesPoint(instance.worldFromGrid, mix(instance.boxMin.xyz, instance.boxMax.xyz, pick));
+    vec4 clip = frame.clipFromWorld * vec4(pointWorld, 1.0);
+    uint code = uint(clip.x < -clip.w) | uint(clip.x > clip.w) << 1 | uint(clip.y < -clip.w) << 2 |
+                uint(clip.y > clip.w) << 3 | uint(clip.z > clip.w) << 4;
+    outside &= code;
+  }
+  return outside != 0u;
+}
+
+// The eye and the near rectangle, bounded by a box in grid space, meet the object's box. May say yes too often: far
+// faces draw the right picture as well.
+bool isCutByNearPlane(SdfInstance instance) {
+  vec3 lower = vec3(3.4e38), upper = vec3(-3.4e38);
+  for (int corner = 0; corner < 4; ++corner) {
+    vec2 ndc = vec2((corner & 1) * 2 - 1, (corner >> 1) * 2 - 1);
+    vec3 originWorld, directionWorld;
+    viewRay(ndc, originWorld, directionWorld);
+    vec3 nearGrid = rowsTimesPoint(instance.gridFromWorld, originWorld + rayParameterOfNear(directionWorld) * directionWorld);
+    vec3 eyeGrid = rowsTimesPoint(instance.gridFromWorld, originWorld);
+    lower = min(lower, min(nearGrid, eyeGrid));
+    upper = max(upper, max(nearGrid, eyeGrid));
+  }
+  // A tenth of a voxel covers the rounding of the transforms.
+  return all(lessThanEqual(lower - 0.1, instance.boxMax.xyz)) && all(greaterThanEqual(upper + 0.1, instance.boxMin.xyz));
+}
+
+// The level whose voxel, at the box's nearest point, is at most a pixel.
+uint levelFor(SdfInstance instance) {
+  if (frame.counts.y > 0u) return min(frame.counts.y - 1u, uint(instance.ids.z) - 1u);
+  float nearest = frame.eyeWorld.w;
+  if (frame.projection.z < 0.5) {
+    vec3 eyeGrid = rowsTimesPoint(instance.gridFromWorld, frame.eyeWorld.xyz);
+    vec3 closestGrid = clamp(eyeGrid, instance.boxMin.xyz, instance.boxMax.xyz);
+    nearest = max(nearest, distance(rowsTimesPoint(instance.worldFromGrid, closestGrid), frame.eyeWorld.xyz));
+  } else {
+    nearest = 1.0;
+  }
+  float pixelWorld = 2.0 * nearest / (frame.projection.y * float(frame.size.y));
+  float level = floor(log2(pixelWorld / instance.boxMin.w));
+  return uint(clamp(level, 0.0, float(instance.ids.z - 1)));
+}
+
+void main() {
+  uint thread = gl_LocalInvocationIndex;
+  uvec2 totals = uvec2(0u); // facing, inside
+  for (uint first = 0u; first < frame.counts.x; first += 256u) {
+    uint slot = first + thread;
+    uvec2 mine = uvec2(0u);
+    uint entry = 0u;
+    if (slot < frame.counts.x) {
+      uint index = reverseOrder ? frame.counts.x - 1u - slot : slot;
+      SdfInstance instance = sdfInstances[index];
+      if (!isOutside(instance)) {
+        bool inside = isCutByNearPlane(instance);
+        mine = inside ? uvec2(0u, 1u) : uvec2(1u, 0u);
+        entry = index | levelFor(instance) << VISIBLE_LEVEL_SHIFT | (inside ? VISIBLE_INSIDE : 0u);
+      }
+    }
+    scan[thread] = mine;
+    barrier();
+    for (uint reach = 1u; reach < 256u; reach <<= 1) {
+      uvec2 before = thread >= reach ? scan[thread - reach] : uvec2(0u);
+      barrier();
+      scan[thread] += before;
+      barrier();
+    }
+    uvec2 place = totals + scan[thread] - mine;
+    if (mine.x != 0u) visible[place.x] = entry;
+    if (mine.y != 0u) visible[frame.counts.x + place.y] = entry;
+    totals += scan[255];
+    barrier();
+  }
+  if (thread == 0u) {
+    commands[0] = DrawCommand(18u, totals.x, 0u, 0u);
+    commands[1] = DrawCommand(36u, totals.y, 0u, frame.counts.x);
+  }
+}

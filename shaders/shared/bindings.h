@@ -1,0 +1,48 @@
+// Binding points of buffers, texture units and attributes, the same in every program.
+#ifndef BRICKFIELD_BINDINGS_H
+#define BRICKFIELD_BINDINGS_H
+#include "shared/bridge.h"
+
+SHARED_BEGIN
+
+// Uniform buffers
+SHARED_CONST uint kFrameUniformBinding = 0;
+// Storage buffers. OpenGL 4.5 promises eight to a stage; no program uses more.
+SHARED_CONST uint kMeshDrawBinding = 0;
+SHARED_CONST uint kMaterialBinding = 1;
+SHARED_CONST uint kSdfInstanceBinding = 2;
+SHARED_CONST uint kSdfLevelBinding = 3;
+SHARED_CONST uint kIndirectionBinding = 4;
+SHARED_CONST uint kLightBinding = 5;
+SHARED_CONST uint kPassBufferABinding = 6; // what one pass alone uses
+SHARED_CONST uint kPassBufferBBinding = 7;
+SHARED_CONST uint kDeformSourceBinding = 0;
+SHARED_CONST uint kDeformResultBinding = 1;
+SHARED_CONST uint kDeformInfluenceBinding = 2;
+SHARED_CONST uint kDeformMorphBinding = 3;
+SHARED_CONST uint kDeformJointBinding = 4;
+SHARED_CONST uint kDeformWeightBinding = 5;
+
+// Texture units
+SHARED_CONST uint kDistanceR8Unit = 0;
+SHARED_CONST uint kDistanceR16Unit = 1;
+SHARED_CONST uint kBrickBaseColorUnit = 2;
+SHARED_CONST uint kBrickMaterialUnit = 3;
+SHARED_CONST uint kBrickEmissionUnit = 4;
+SHARED_CONST uint kDepthMeshUnit = 5;
+SHARED_CONST uint kMaterialTextureUnit = 6; // and the four after it
+SHARED_CONST uint kDepthUnit = 0;           // of the passes that read the G-buffer
+SHARED_CONST uint kNormalUnit = 1;
+SHARED_CONST uint kAlbedoUnit = 2;
+SHARED_CONST uint kMaterialUnit = 3;
+SHARED_CONST uint kEmissionUnit = 4;
+SHARED_CONST uint kIdUnit = 5;
+SHARED_CONST uint kTraceUnit = 6;
+SHARED_CONST uint kEnvironmentUnit = 7;
+SHARED_CONST uint kEnvironmentBrdfUnit = 8;
+SHARED_CONST uint kColorUnit = 9;
+SHARED_CONST uint kOverdrawUnit = 10;
+
+SHARED_END
+
+#endif

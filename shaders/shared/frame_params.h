@@ -1,0 +1,50 @@
+// What all passes of a frame know: the view, the picture, the light. One uniform buffer.
+#ifndef BRICKFIELD_FRAME_PARAMS_H
+#define BRICKFIELD_FRAME_PARAMS_H
+#include "shared/bridge.h"
+
+SHARED_BEGIN
+
+struct FrameParams {
+  mat4 clipFromWorld;
+  mat4 worldFromView;
+  vec4 eyeWorld;        // w: near distance, metres
+  vec4 projection;      // x, y: clipFromView[0][0], [1][1]; z: 1 orthographic; w: exposure factor
+  uvec4 size;           // x, y: pixels; z: lights; w: debug view (DEBUG_VIEW_*)
+  uvec4 counts;         // x: SDF instances; y: forced SDF level + 1, or 0; z: trace steps allowed; w: environment mips
+  vec4 debugRange;      // x, y: values shown as 0 and 1 by the debug views; z: 1 checks the depth promise
+  vec4 irradiance[9];   // spherical harmonics, rgb
+};
+SHARED_ASSERT_SIZE(FrameParams, 128 + 5 * 16 + 9 * 16)
+
+// A light that is on. Units as in KHR_lights_punctual.
+struct LightRow {
+  vec4 position;   // world; w: kind (LIGHT_*)
+  vec4 direction;  // world, where it travels, unit; w: range in metres, 0 infinite
+  vec4 intensity;  // rgb lux or candela; w: radius in metres
+  vec4 cone;       // x: scale, y: offset of the spot's angular falloff
+};
+SHARED_ASSERT_SIZE(LightRow, 64)
+
+SHARED_CONST uint LIGHT_SUN = 0;
+SHARED_CONST uint LIGHT_POINT = 1;
+SHARED_CONST uint LIGHT_SPOT = 2;
+SHARED_CONST uint LIGHT_SPHERE = 3;
+
+SHARED_CONST uint KIND_NONE = 0;
+SHARED_CONST uint KIND_MESH = 1;
+SHARED_CONST uint KIND_SDF = 2;
+
+SHARED_CONST uint DEBUG_VIEW_NONE = 0;
+SHARED_CONST uint DEBUG_VIEW_DEPTH = 1;
+SHARED_CONST uint DEBUG_VIEW_NORMAL = 2;
+SHARED_CONST uint DEBUG_VIEW_ALBEDO = 3;
+SHARED_CONST uint DEBUG_VIEW_ID = 4;
+SHARED_CONST uint DEBUG_VIEW_KIND = 5;
+SHARED_CONST uint DEBUG_VIEW_STEPS = 6;
+SHARED_CONST uint DEBUG_VIEW_BRICKS = 7;
+SHARED_CONST uint DEBUG_VIEW_OVERDRAW = 8;
+
+SHARED_END
+
+#endif

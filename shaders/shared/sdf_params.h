@@ -1,0 +1,53 @@
+// SDF objects on the GPU. Grid space of an object: origin at sample 0, unit = one voxel of the finest level.
+#ifndef BRICKFIELD_SDF_PARAMS_H
+#define BRICKFIELD_SDF_PARAMS_H
+#include "shared/bridge.h"
+
+SHARED_BEGIN
+
+struct SdfInstance {
+  vec4 gridFromWorld[3]; // rows of the affine transform
+  vec4 worldFromGrid[3];
+  vec4 boxMin;           // grid space; w: largest metres of world that one voxel spans
+  vec4 boxMax;           // grid space
+  ivec4 ids;             // x: node; y: first row in the level table; z: levels; w: SDF_* flags
+};
+SHARED_ASSERT_SIZE(SdfInstance, 144)
+
+SHARED_CONST uint SDF_DOUBLE_SIDED = 1;
+
+struct SdfLevel {
+  uvec4 cells;   // x: first indirection cell; y, z, w: bricks along each axis
+  vec4 scale;    // x: level voxels a grid voxel (1, 1/2, 1/4); y: voxels of the stored value 1; z: 1 in the R16 pool
+  uvec4 attributes; // x: first cell of the attribute indirection, or SDF_NO_ATTRIBUTES
+};
+SHARED_ASSERT_SIZE(SdfLevel, 48)
+
+SHARED_CONST uint SDF_NO_ATTRIBUTES = 0xffffffffu;
+
+// Indirection cell, as in field/brick_field.h, with the slot of the pool for the index.
+SHARED_CONST uint CELL_EMPTY = 0x80000000u;
+SHARED_CONST uint CELL_INSIDE = 0x40000000u;
+SHARED_CONST uint CELL_BOUND_MASK = 0xffffu;
+
+SHARED_CONST uint BRICK_SAMPLES = 8u;
+SHARED_CONST uint BRICK_CELLS = 7u;
+
+// A visible object, as the box pass takes it from its instance attribute: index and flags.
+SHARED_CONST uint VISIBLE_INDEX_MASK = 0x00ffffffu;
+SHARED_CONST uint VISIBLE_LEVEL_SHIFT = 24u;
+SHARED_CONST uint VISIBLE_LEVEL_MASK = 0x7u;
+SHARED_CONST uint VISIBLE_INSIDE = 0x80000000u;
+
+// Counters of a frame (storage buffer, one uint each).
+SHARED_CONST uint COUNTER_FRAGMENTS = 0;
+SHARED_CONST uint COUNTER_HITS = 1;
+SHARED_CONST uint COUNTER_STEPS = 2;
+SHARED_CONST uint COUNTER_BRICK_READS = 3;
+SHARED_CONST uint COUNTER_PROMISE_BROKEN = 4;
+SHARED_CONST uint COUNTER_OUT_OF_STEPS = 5;
+SHARED_CONST uint COUNTERS = 8;
+
+SHARED_END
+
+#endif

@@ -1,0 +1,55 @@
+// What a pass is to the frame plan: a name, what it reads, what it writes. From these the plan proves that nothing
+// reads what nobody wrote, and derives the memory barriers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace brickfield {
+
+/// Everything that one pass may leave for another. Names are those of the G-buffer's textures and the pools' buffers.
+enum class Resource : std::uint8_t {
+  FrameParams,
+  MeshVertices,
+  MeshDraws,
+  SdfScene,       ///< instances, levels, indirection, atlas
+  VisibleBoxes,   ///< list and draw commands of the SDF objects
+  Environment,
+  Depth,
+  DepthMesh,      ///< depth of the meshes alone, which ends the rays of SDF objects
+  GBuffer,        ///< normal, albedo, material, emission, id, trace
+  BoxOverdraw,
+  Color,
+  Picture,
+  Counters,
+};
+inline constexpr int kResourceCount = 13;
+const char* resourceName(Resource resource);
+
+/// How the GPU touches it: decides the barrier after incoherent writes.
+enum class Access : std::uint8_t {
+  Attachment,     ///< colour or depth target, blit and copy
+  Sampled,        ///< texture or image fetch of any stage
+  ImageStore,     ///< incoherent write
+  StorageRead,
+  StorageWrite,   ///< incoherent write
+  Uniform,
+  VertexFetch,
+  Indirect,
+  Upload,         ///< written by the host
+};
+
+struct ResourceUse {
+  Resource resource;
+  Access access;
+};
+
+/// A pass declares this once; it costs no GL.
+struct PassDeclaration {
+  std::string name;
+  std::vector<ResourceUse> reads;
+  std::vector<ResourceUse> writes;
+};
+
+} // namespace brickfield

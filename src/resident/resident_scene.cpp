@@ -1,0 +1,195 @@
+// Sorts mesh draws by state, lays out deform jobs, turns poses of SDF nodes into affine maps to grid space.
+#include "resident/resident_scene.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "shared/bindings.h"
+
+namespace brickfield {
+
+struct ResidentScene::PendingDraw {
+  PooledPrimitive primitive;
+  std::uint32_t baseVertex;
+  shared::MeshDraw row;
+  bool mirrored;
+  auto state() const { return std::tie(primitive.material, mirrored, primitive.firstIndex, baseVertex); }
+};
+
+namespace {
+
+// Marks a base vertex that counts deformed vertices from 0, until finishDraws knows where they begin.
+constexpr std::uint32_t kDeformed = 1u << 31;
+
+// Grows a buffer to its content and uploads it.
+template <typename Element>
+void renew(Buffer& buffer, const char* label, const std::vector<Element>& content) {
+  if (!buffer) buffer = Buffer(label, content.size() * sizeof(Element));
+  buffer.growTo(content.size() * sizeof(Element));
+  buffer.upload(0, content);
+}
+
+bool isDoubleSidedNode(const Scene& scene, int mesh) {
+  const auto& primitives = scene.meshes[static_cast<std::size_t>(mesh)].primitives;
+  return !primitives.empty() && std::all_of(primitives.begin(), primitives.end(), [&](const Primitive& primitive) {
+    return materialOf(scene, primitive).doubleSided;
+  });
+}
+
+} // namespace
+
+ResidentScene::ResidentScene(const Scene& scene, const SceneFields& fields)
+    : meshes_(scene), materials_(scene), fieldOfNode_(fields.fieldOfNode) {
+  fieldOfNode_.resize(scene.nodes.size(), -1);
+  for (const BrickField& field : fields.fields) fieldIds_.push_back(atlas_.add(field));
+}
+
+std::uint32_t ResidentScene::addDeformJob(const PosedInstance& instance, const PooledPrimitive& primitive) {
+  DeformJob job;
+  const bool skinned = instance.skin >= 0 && primitive.influences > 0;
+  job.params.vertices = {primitive.firstVertex, primitive.vertexCount, deformedVertices_,
+                         skinned ? primitive.influences : 0u};
+  job.params.sources = {primitive.firstInfluence, primitive.firstMorphRow, primitive.morphTargets,
+                        static_cast<std::uint32_t>(joints_.size())};
+  job.params.weights = {static_cast<std::uint32_t>(weights_.size()), 0, 0, 0};
+  weights_.insert(weights_.end(), instance.morphWeights.begin(), instance.morphWeights.end());
+  // Targets without a weight of their own stay where they are.
+  weights_.resize(job.params.weights.x + primitive.morphTargets, 0.0f);
+  if (skinned) joints_.insert(joints_.end(), instance.worldFromBind.begin(), instance.worldFromBind.end());
+  deformJobs_.push_back(job);
+  const std::uint32_t first = deformedVertices_;
+  deformedVertices_ += primitive.vertexCount;
+  return first;
+}
+
+void ResidentScene::addMeshDraws(const PosedInstance& instance, std::vector<PendingDraw>& pending) {
+  for (std::size_t i = 0; i < meshes_.primitiveCount(instance.mesh); ++i) {
+    const PooledPrimitive& primitive = meshes_.primitive(instance.mesh, i);
+    PendingDraw draw{primitive, primitive.firstVertex, {}, mirrorSign(instance.worldFromObject) < 0};
+    const bool morphed = primitive.morphTargets > 0 && std::any_of(instance.morphWeights.begin(), instance.morphWeights.end(), [](float w) { return w != 0; });
+    const bool skinned = instance.skin >= 0 && primitive.influences > 0;
+    if (morphed || skinned) draw.baseVertex = addDeformJob(instance, primitive) | kDeformed;
+    draw.row.worldFromObject = instance.worldFromObject;
+    draw.row.ids = {instance.node, MaterialTable::rowOf(primitive.material),
+                    static_cast<int>((primitive.flatNormals ? shared::DRAW_FLAT_NORMALS : 0u) |
+                                     (draw.mirrored ? shared::DRAW_MIRRORED : 0u)),
+                    0};
+    pending.push_back(draw);
+  }
+}
+
+void ResidentScene::finishDraws(std::vector<PendingDraw>& pending) {
+  const std::uint32_t firstDeformed = meshes_.reserveDeformed(deformedVertices_);
+  for (DeformJob& job : deformJobs_) job.params.vertices.z += firstDeformed;
+  for (PendingDraw& draw : pending)
+    if (draw.baseVertex & kDeformed) draw.baseVertex = (draw.baseVertex & ~kDeformed) + firstDeformed;
+  std::stable_sort(pending.begin(), pending.end(),
+                   [](const PendingDraw& a, const PendingDraw& b) { return a.state() < b.state(); });
+
+  batches_.clear();
+  std::vector<shared::MeshDraw> rows;
+  for (const PendingDraw& draw : pending) {
+    if (batches_.empty() || PendingDraw{batches_.back().primitive, batches_.back().baseVertex, {}, batches_.back().mirrored}.state() != draw.state())
+      batches_.push_back({draw.primitive, draw.baseVertex, static_cast<std::uint32_t>(rows.size()), 0, draw.mirrored});
+    ++batches_.back().drawCount;
+    rows.push_back(draw.row);
+  }
+  meshDrawCount_ = static_cast<std::uint32_t>(rows.size());
+  renew(meshDraws_, "mesh_draws", rows);
+  std::vector<std::uint32_t> numbers(rows.size());
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  renew(drawIndices_, "mesh_draw_indices", numbers);
+  constexpr GLuint kDrawBinding = 1;
+  constexpr GLuint kDrawAttribute = 6;
+  VertexArray& array = meshes_.vertexArray();
+  array.setVertexBuffer(kDrawBinding, drawIndices_, sizeof(std::uint32_t));
+  array.setIntegerAttribute(kDrawAttribute, kDrawBinding, 1, GL_UNSIGNED_INT, 0);
+  glVertexArrayBindingDivisor(array.id(), kDrawBinding, 1);
+}
+
+void ResidentScene::addSdfInstance(const PosedInstance& instance, const ResidentField& field, bool doubleSided) {
+  // In double precision: the translation of a small object far from the origin would lose its voxels.
+  const glm::dmat4 worldFromObject(instance.worldFromObject);
+  if (glm::determinant(glm::dmat3(worldFromObject)) == 0.0) return;
+  const double h = field.voxelSizeObject;
+  glm::dmat4 objectFromGrid(1.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    objectFromGrid[axis][axis] = h;
+    objectFromGrid[3][axis] = field.originObject[axis];
+  }
+  const glm::dmat4 worldFromGrid = worldFromObject * objectFromGrid;
+  const glm::dmat4 gridFromWorld = glm::inverse(worldFromGrid);
+  if (!isFinite(glm::mat4(gridFromWorld))) return;
+
+  shared::SdfInstance row{};
+  const glm::mat4 rowsOfGrid(glm::transpose(gridFromWorld)), rowsOfWorld(glm::transpose(worldFromGrid));
+  for (int axis = 0; axis < 3; ++axis) {
+    row.gridFromWorld[axis] = rowsOfGrid[axis];
+    row.worldFromGrid[axis] = rowsOfWorld[axis];
+  }
+  row.boxMin = glm::vec4((field.boundsObject.min - field.originObject) / field.voxelSizeObject,
+                         scaleRange(glm::mat4(worldFromGrid)).y);
+  row.boxMax = glm::vec4((field.boundsObject.max - field.originObject) / field.voxelSizeObject, 0.0f);
+  row.ids = {instance.node, static_cast<int>(field.firstLevel), static_cast<int>(field.levelCount),
+             static_cast<int>(doubleSided ? shared::SDF_DOUBLE_SIDED : 0u)};
+  sdfRows_.push_back(row);
+}
+
+void ResidentScene::setPose(const Scene& scene, const Pose& pose) {
+  deformJobs_.clear();
+  sdfRows_.clear();
+  joints_.clear();
+  weights_.clear();
+  deformedVertices_ = 0;
+  std::vector<PendingDraw> pending;
+  for (const PosedInstance& instance : pose.instances) {
+    const int field = fieldOfNode_[static_cast<std::size_t>(instance.node)];
+    if (field >= 0)
+      addSdfInstance(instance, atlas_.field(fieldIds_[static_cast<std::size_t>(field)]), isDoubleSidedNode(scene, instance.mesh));
+    else
+      addMeshDraws(instance, pending);
+  }
+  finishDraws(pending);
+  renew(sdfInstances_, "sdf_instances", sdfRows_);
+  renew(jointMatrices_, "joint_matrices", joints_);
+  renew(morphWeights_, "morph_weights", weights_);
+  sdfInstanceCount_ = static_cast<std::uint32_t>(sdfRows_.size());
+}
+
+void ResidentScene::setLighting(const Lighting& lighting) {
+  std::vector<shared::LightRow> rows;
+  for (const PosedLight& posed : lighting.lights) {
+    const Light& light = posed.light;
+    shared::LightRow row{};
+    const std::uint32_t kind = light.kind == LightKind::Sun     ? shared::LIGHT_SUN
+                               : light.kind == LightKind::Point ? shared::LIGHT_POINT
+                               : light.kind == LightKind::Spot  ? shared::LIGHT_SPOT
+                                                                : shared::LIGHT_SPHERE;
+    row.position = glm::vec4(posed.positionWorld, static_cast<float>(kind));
+    row.direction = glm::vec4(posed.directionWorld, light.range);
+    row.intensity = glm::vec4(light.color * light.intensity, light.radius);
+    // KHR_lights_punctual: the angular falloff as scale and offset of the cosine; 0.001 is the extension's guard.
+    const float cosInner = std::cos(light.innerConeRadians), cosOuter = std::cos(light.outerConeRadians);
+    row.cone.x = 1.0f / std::max(0.001f, cosInner - cosOuter);
+    row.cone.y = -cosOuter * row.cone.x;
+    rows.push_back(row);
+  }
+  renew(lights_, "lights", rows);
+  lightCount_ = static_cast<std::uint32_t>(rows.size());
+}
+
+void ResidentScene::bindDeform() const {
+  meshes_.vertices().bindStorage(shared::kDeformSourceBinding);
+  meshes_.vertices().bindStorage(shared::kDeformResultBinding);
+  meshes_.influences().bindStorage(shared::kDeformInfluenceBinding);
+  meshes_.morphs().bindStorage(shared::kDeformMorphBinding);
+  jointMatrices_.bindStorage(shared::kDeformJointBinding);
+  morphWeights_.bindStorage(shared::kDeformWeightBinding);
+}
+
+std::size_t ResidentScene::bytes() const {
+  return meshes_.bytes() + materials_.bytes() + atlas_.bytes() + meshDraws_.bytes() + sdfInstances_.bytes();
+}
+
+} // namespace brickfield

@@ -1,0 +1,83 @@
+// A scene on the GPU: what is uploaded once (triangles, materials, fields) and what every pose renews (draws, instances,
+// joints, lights).
+#pragma once
+
+#include <vector>
+
+#include "resident/brick_atlas.h"
+#include "resident/material_table.h"
+#include "resident/mesh_pool.h"
+#include "scene/lighting.h"
+#include "shared/frame_params.h"
+
+namespace brickfield {
+
+/// Which nodes are SDF objects: fieldOfNode[node] is an index into fields, or -1 for a mesh.
+struct SceneFields {
+  std::vector<BrickField> fields;
+  std::vector<int> fieldOfNode;
+};
+
+/// Consecutive draws of one primitive with one state.
+struct MeshBatch {
+  PooledPrimitive primitive;
+  std::uint32_t baseVertex = 0;
+  std::uint32_t firstDraw = 0;
+  std::uint32_t drawCount = 0;
+  bool mirrored = false;
+};
+
+/// One run of the deform pass.
+struct DeformJob {
+  shared::DeformParams params;
+};
+
+class ResidentScene {
+public:
+  ResidentScene(const Scene& scene, const SceneFields& fields);
+
+  /// Fills draws, deform jobs and SDF instances for a moment. Instances of SDF nodes whose transform flattens space
+  /// (determinant 0) are left out: they have no inside.
+  void setPose(const Scene& scene, const Pose& pose);
+  void setLighting(const Lighting& lighting);
+
+  const MeshPool& meshes() const { return meshes_; }
+  const MaterialTable& materials() const { return materials_; }
+  const BrickAtlas& atlas() const { return atlas_; }
+  const std::vector<MeshBatch>& batches() const { return batches_; }
+  const std::vector<DeformJob>& deformJobs() const { return deformJobs_; }
+  std::uint32_t sdfInstanceCount() const { return sdfInstanceCount_; }
+  std::uint32_t meshDrawCount() const { return meshDrawCount_; }
+  std::uint32_t lightCount() const { return lightCount_; }
+  const Buffer& drawIndices() const { return drawIndices_; }
+
+  void bindMeshDraws() const { meshDraws_.bindStorage(shared::kMeshDrawBinding); }
+  void bindSdfInstances() const { sdfInstances_.bindStorage(shared::kSdfInstanceBinding); }
+  void bindLights() const { lights_.bindStorage(shared::kLightBinding); }
+  void bindDeform() const;
+  std::size_t bytes() const;
+
+private:
+  struct PendingDraw;
+  void addMeshDraws(const PosedInstance& instance, std::vector<PendingDraw>& pending);
+  std::uint32_t addDeformJob(const PosedInstance& instance, const PooledPrimitive& primitive);
+  void addSdfInstance(const PosedInstance& instance, const ResidentField& field, bool doubleSided);
+  void finishDraws(std::vector<PendingDraw>& pending);
+
+  MeshPool meshes_;
+  MaterialTable materials_;
+  BrickAtlas atlas_;
+  std::vector<BrickAtlas::FieldId> fieldIds_;
+  std::vector<int> fieldOfNode_;
+
+  std::vector<MeshBatch> batches_;
+  std::vector<DeformJob> deformJobs_;
+  std::vector<shared::SdfInstance> sdfRows_;
+  std::vector<glm::mat4> joints_;
+  std::vector<float> weights_;
+  std::uint32_t deformedVertices_ = 0;
+  Buffer meshDraws_, drawIndices_, sdfInstances_, lights_, jointMatrices_, morphWeights_;
+  std::uint32_t sdfInstanceCount_ = 0, meshDrawCount_ = 0, lightCount_ = 0;
+};
+
+} // namespace brickfield
