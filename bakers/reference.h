@@ -16,10 +16,10 @@ struct ReferenceRequest {
   const Pose* pose = nullptr;
   const View* view = nullptr;
   const Lighting* lighting = nullptr;
-  std::function<bool(int node)> isSdf;  ///< marks the `kind` layer; the geometry is the mesh all the same
-  int samples = 1;                      ///< a pixel; the first goes through the centre and alone makes all layers but colour
+  std::function<bool(int node)> isSdf; ///< marks the `kind` layer; the geometry is the mesh all the same
+  int samples = 1; ///< a pixel; the first goes through the centre and alone makes all layers but colour
   std::uint64_t seed = 0;
-  int threads = 0;                      ///< 0: all
+  int threads = 0; ///< 0: all
 };
 
 /// Back faces of single-sided materials are culled, alpha masks are cut; layers as FrameLayers says.

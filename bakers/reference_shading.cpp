@@ -1,0 +1,66 @@
+// Direct light as glTF 2.0, appendix B says. Environment light is the usual approximation: irradiance by nine
+// harmonics, and a prefiltered mirror image times the environment BRDF (Karis 2013), neither of them shadowed but by
+// occlusion maps.
+#include "bakers/reference_shading.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "scene/brdf.h"
+#include "scene/light_arrival.h"
+
+namespace brickfield {
+
+ReferenceShading::ReferenceShading(const Lighting& lighting, const ReferenceGeometry& geometry)
+    : lighting_(lighting),
+      geometry_(geometry),
+      irradiance_(irradianceHarmonics(lighting.environment)),
+      environment_(prefilterEnvironment(lighting.environment)) {}
+
+glm::vec3 ReferenceShading::sky(glm::vec3 directionWorld) const {
+  return sampleEnvironment(lighting_.environment, directionWorld);
+}
+
+glm::vec3 ReferenceShading::shade(const SurfaceHit& surface, const MaterialSample& material, glm::vec3 normalWorld,
+                                  glm::vec3 towardsViewer) const {
+  const glm::vec3 baseColor(material.baseColor);
+  if (surface.material->unlit) return baseColor;
+  const glm::vec3 normal = visibleNormal(normalWorld, towardsViewer);
+  const SurfaceBrdf brdf = makeBrdf(baseColor, material.metallic, material.roughness);
+
+  const float nDotV = glm::dot(normal, towardsViewer);
+  const glm::vec3 irradiance = glm::max(evaluateHarmonics(irradiance_, normal), glm::vec3(0.0f));
+  const glm::vec2 mirrored = environmentBrdf(material.roughness, nDotV);
+  const glm::vec3 reflected = glm::reflect(-towardsViewer, normal);
+  glm::vec3 radiance = material.emission;
+  radiance += material.occlusion * brdf.diffuse * irradiance / std::numbers::pi_v<float>;
+  radiance += material.occlusion * glm::max(brdf.f0 * mirrored.x + mirrored.y, glm::vec3(0.0f)) *
+              samplePrefiltered(environment_, reflected, material.roughness);
+
+  // Shadow rays start off the surface on the viewer's side, by more than what rounding may have moved the point.
+  const glm::vec3 sideNormal = surface.isBackFace ? -surface.normalTriangle : surface.normalTriangle;
+  const glm::vec3 start = surface.position + 2.0f * surface.positionError * sideNormal;
+  for (const PosedLight& light : lighting_.lights) {
+    const LightArrival arrival = lightArrivalAt(light, surface.position);
+    const float nDotL = glm::dot(normal, arrival.towardsLight);
+    if (nDotL <= 0.0f || arrival.irradiance == glm::vec3(0.0f)) continue;
+    const glm::vec3 answer =
+        evaluateBrdf(brdf, normal, towardsViewer, arrival.towardsLight) * arrival.irradiance * nDotL;
+    if (answer == glm::vec3(0.0f) || geometry_.isOccluded(start, arrival.towardsLight, arrival.distance)) continue;
+    radiance += answer;
+  }
+  return radiance;
+}
+
+glm::vec3 shadingNormal(const SurfaceHit& surface, const MaterialSample& material) {
+  glm::vec3 normal = surface.normalVertex;
+  if (surface.material->normalTexture.isUsed() && surface.tangent != glm::vec3(0.0f)) {
+    const glm::vec3 bent = material.normalTangent.x * surface.tangent + material.normalTangent.y * surface.bitangent +
+                           material.normalTangent.z * surface.normalVertex;
+    const float length = glm::length(bent);
+    if (length > 0.0f) normal = bent / length;
+  }
+  return surface.isBackFace ? -normal : normal;
+}
+
+} // namespace brickfield
