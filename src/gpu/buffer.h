@@ -99,7 +99,7 @@ private:
   std::string label_;
   GLuint id_ = 0;
   std::size_t bytes_ = 0;
-  GLbitfield flags_ = 0;
+  GLbitfield flags_ = GL_DYNAMIC_STORAGE_BIT;
 };
 
 } // namespace brickfield

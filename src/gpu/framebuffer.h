@@ -1,6 +1,7 @@
 // Render targets: a framebuffer object with a label over textures that it does not own.
 #pragma once
 
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,7 +46,7 @@ public:
   void clearDepth(float depth);
 
 private:
-  void requireComplete() const;
+  void requireComplete();
 
   std::string label_;
   GLuint id_ = 0;

@@ -27,7 +27,7 @@ public:
 
   /// While disabled, scopes cost nothing and leave no results.
   void setEnabled(bool enabled) { enabled_ = enabled; }
-  /// Starts a frame: what scopes record from now on replaces the frame three before.
+  /// Starts a frame: what scopes record from now on replaces the frame four before. error Failure if a scope is open
   void beginFrame();
 
   /// Times what is issued until it is destroyed; scopes nest.
@@ -60,6 +60,7 @@ private:
   static constexpr std::size_t kFrames = 4;
 
   GLuint takeQuery();
+  void requireClosed() const;
   static std::vector<PassTime> collect(std::vector<Sample>& samples);
 
   bool useClock_;
