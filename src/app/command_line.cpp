@@ -1,0 +1,89 @@
+// One list of commands. A command's flags are parsed first, whole; its action runs afterwards.
+#include "app/command_line.h"
+
+#include <algorithm>
+#include <new>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/command_bake.h"
+#include "app/command_compare.h"
+#include "app/command_inspect.h"
+#include "app/command_list.h"
+#include "app/command_reference.h"
+#include "app/command_render.h"
+#include "app/session.h"
+#include "core/error.h"
+
+namespace brickfield {
+
+namespace {
+
+void addCommands(CLI::App& program, CommandAction& chosen) {
+  addRenderCommand(program, chosen);
+  addListCommand(program, chosen);
+  addInspectCommand(program, chosen);
+#ifdef BRICKFIELD_BAKERS
+  addBakeCommand(program, chosen);
+  addReferenceCommand(program, chosen);
+  addCompareCommand(program, chosen);
+#endif
+}
+
+/// CLI11 would say "not expected" without the names that are.
+void checkCommand(CLI::App& program, const std::vector<std::string>& arguments) {
+  if (arguments.empty()) throw BadInput("no command is given; \"brickfield --help\" lists them");
+  const std::string& first = arguments.front();
+  if (first.empty() || first[0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), first) != names.end()) return;
+#ifndef BRICKFIELD_BAKERS
+  for (const char* absent : {"bake", "reference", "compare"})
+    if (first == absent) throw BadInput(first, "", "this build has neither Embree nor OpenImageIO");
+#endif
+  throw BadInput(first, "", fmt::format("is no command; there are {}", fmt::join(names, ", ")));
+}
+
+int parseAndRun(std::vector<std::string> arguments) {
+  CLI::App program("Renders glTF scenes in which any node may be a signed distance field.", "brickfield");
+  program.set_version_flag("--version", "brickfield " BRICKFIELD_VERSION);
+  CommandAction chosen;
+  addCommands(program, chosen);
+  checkCommand(program, arguments);
+  const std::string command = arguments.front();
+  try {
+    std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
+    program.parse(std::move(arguments));
+  } catch (const CLI::Success& request) { // help, version
+    return program.exit(request);
+  } catch (const CLI::ParseError& error) {
+    throw BadInput(command, "", error.what());
+  }
+  if (!chosen) throw BadInput("no command is given; \"brickfield --help\" lists them");
+  return chosen();
+}
+
+} // namespace
+
+int runCommandLine(std::vector<std::string> arguments) {
+  try {
+    return parseAndRun(std::move(arguments));
+  } catch (const BadInput& error) {
+    printError(error.what());
+    return kBadInput;
+  } catch (const Cancelled& error) {
+    printError(error.what());
+    return kInterrupted;
+  } catch (const std::bad_alloc&) {
+    printError("out of memory");
+  } catch (const std::exception& error) {
+    printError(error.what());
+  }
+  return kOurFailure;
+}
+
+} // namespace brickfield

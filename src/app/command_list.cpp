@@ -1,0 +1,64 @@
+// One line an entry on stdout: the name, then what it means.
+#include "app/command_list.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/options.h"
+#include "app/run_render.h"
+#include "app/session.h"
+#include "gpu/context.h"
+#include "scene/gltf_import.h"
+
+namespace brickfield {
+
+namespace {
+
+int printNames(const std::vector<NameAndMeaning>& entries) {
+  for (const NameAndMeaning& entry : entries) fmt::print("{:<24} {}\n", entry.name, entry.meaning);
+  return 0;
+}
+
+int printCameras(const std::filesystem::path& path) {
+  const Scene scene = importGltf(path);
+  const Pose pose = poseScene(scene, {});
+  printWarnings(scene);
+  for (std::size_t i = 0; i < pose.cameraNodes.size(); ++i) {
+    const int node = pose.cameraNodes[i];
+    const Camera& camera = scene.cameras[static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(node)].camera)];
+    const std::string optics =
+        camera.orthographic ? fmt::format("orthographic, {:g} m high", 2.0f * camera.halfExtent.y)
+                            : fmt::format("perspective, {:.1f} degrees", glm::degrees(camera.verticalFovRadians));
+    fmt::print("{:<4} {} {}, {}\n", i, camera.name.empty() ? "-" : camera.name, nodeLabel(scene, node), optics);
+  }
+  if (pose.cameraNodes.empty()) fmt::print("none; --camera auto frames the scene\n");
+  return 0;
+}
+
+int printDevices() {
+  for (const DeviceInfo& device : listDevices())
+    fmt::print("{:<4} {}\n", device.index,
+               device.error.empty() ? fmt::format("{}, OpenGL {}{}", device.context.renderer, device.context.version,
+                                                  device.context.isSoftware ? ", software" : "")
+                                    : "unusable: " + device.error);
+  return 0;
+}
+
+} // namespace
+
+void addListCommand(CLI::App& program, CommandAction& chosen) {
+  CLI::App& command = *program.add_subcommand("list", "List what other commands take by name");
+  command.require_subcommand(1);
+  const auto add = [&](const char* name, const char* description, CommandAction action) {
+    command.add_subcommand(name, description)->callback([action, &chosen] { chosen = action; });
+  };
+  add("views", "What --view takes", [] { return printNames(viewNames()); });
+  add("passes", "The passes of a frame, in order", [] { return printNames(passNames()); });
+  add("devices", "What --device takes", [] { return printDevices(); });
+  CLI::App& cameras = *command.add_subcommand("cameras", "What --camera takes for a scene");
+  const auto scene = std::make_shared<std::filesystem::path>();
+  addPath(cameras, "SCENE", "glTF 2.0 file (.gltf or .glb)", *scene)->required();
+  cameras.callback([scene, &chosen] { chosen = [scene] { return printCameras(*scene); }; });
+}
+
+} // namespace brickfield

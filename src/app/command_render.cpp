@@ -1,0 +1,73 @@
+// The flags of `render`; the outputs are checked before anything is read.
+#include "app/command_render.h"
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/image_io.h"
+#include "app/parse.h"
+#include "app/run_render.h"
+#include "core/error.h"
+
+namespace brickfield {
+
+namespace {
+
+TraceChoice parseTrace(const std::string& flag, const std::string& text) {
+  if (text == "auto") return TraceChoice::Auto;
+  if (text == "boxes") return TraceChoice::Boxes;
+  throw BadInput(flag, fmt::format("\"{}\"", text), "is neither auto nor boxes");
+}
+
+void checkView(const std::string& view) {
+  if (view.empty()) return;
+  const std::vector<NameAndMeaning> views = viewNames();
+  if (std::any_of(views.begin(), views.end(), [&](const NameAndMeaning& known) { return known.name == view; })) return;
+  throw BadInput("--view", fmt::format("\"{}\"", view), "is no view; \"brickfield list views\" names them");
+}
+
+int render(const RenderRequest& request) {
+  checkOutputs({{"-o", request.output, {".png", ".exr"}},
+                {"--layers", request.layers, {".exr"}},
+                {"--stats", request.stats, {".json"}}});
+  checkCamera(request.camera);
+  checkView(request.view);
+  checkInputPath(request.scene.path, {".gltf", ".glb"});
+  runRender(request);
+  return 0;
+}
+
+void addOptions(CLI::App& command, RenderRequest& request) {
+  addSceneOptions(command, request.scene);
+  addPath(command, "-o,--output", "The picture: .png (exposed, tone-mapped) or .exr (linear radiance)", request.output)
+      ->required();
+  addCameraOptions(command, request.camera);
+  addLightOptions(command, request.light);
+  addExposureOption(command, request.exposureEv);
+  addValue(command, "--frames", "Frames 1/60 s apart that end at --time; the picture is the last",
+           [&](auto& flag, auto& text) { request.frames = static_cast<int>(parseWhole(flag, text, 1, 100000)); })
+      ->type_name("N");
+  addValue(command, "--trace", "How SDF objects are found: auto or boxes", [&](auto& flag, auto& text) {
+    request.trace = parseTrace(flag, text);
+  })->type_name("PATH");
+  command.add_option("--view", request.view, "A debug view instead of the picture; see \"brickfield list views\"")
+      ->type_name("NAME");
+  addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", request.layers);
+  addPath(command, "--stats", "Times, counts and memory as .json", request.stats);
+  addValue(command, "--device", "EGL device by number, see \"brickfield list devices\"; absent: the first that works",
+           [&](auto& flag, auto& text) { request.device = static_cast<int>(parseWhole(flag, text, 0, 255)); })
+      ->type_name("N");
+}
+
+} // namespace
+
+void addRenderCommand(CLI::App& program, CommandAction& chosen) {
+  CLI::App& command = *program.add_subcommand("render", "Draw a scene to a picture");
+  const auto request = std::make_shared<RenderRequest>();
+  addOptions(command, *request);
+  command.callback([request, &chosen] { chosen = [request] { return render(*request); }; });
+}
+
+} // namespace brickfield

@@ -1,0 +1,150 @@
+// One table says which layer is which part with which channels; writing and reading both walk it.
+#include "app/layers_io.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "app/exr.h"
+#include "core/error.h"
+
+namespace brickfield {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Floats = std::vector<float>;
+
+Floats floatsOf(const std::vector<glm::vec3>& values) {
+  Floats floats;
+  floats.reserve(values.size() * 3);
+  for (const glm::vec3& value : values) floats.insert(floats.end(), {value.x, value.y, value.z});
+  return floats;
+}
+
+std::vector<glm::vec3> vectorsOf(const Floats& floats) {
+  std::vector<glm::vec3> values(floats.size() / 3);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = {floats[3 * i], floats[3 * i + 1], floats[3 * i + 2]};
+  return values;
+}
+
+template <typename Whole>
+Floats floatsOfWhole(const std::vector<Whole>& values) {
+  Floats floats;
+  floats.reserve(values.size());
+  for (const Whole value : values) floats.push_back(static_cast<float>(value));
+  return floats;
+}
+
+/// Refuses what the cast could not hold; `part` begins the message.
+template <typename Whole>
+std::vector<Whole> wholeOf(const Floats& floats, float least, float most) {
+  std::vector<Whole> values;
+  values.reserve(floats.size());
+  for (const float value : floats) {
+    if (!(value >= least && value <= most) || value != std::floor(value))
+      throw BadInput(fmt::format("{} is no whole number from {} to {}", value, least, most));
+    values.push_back(static_cast<Whole>(value));
+  }
+  return values;
+}
+
+struct LayerFormat {
+  const char* name;
+  std::vector<std::string> channels;
+  std::function<Floats(const FrameLayers&)> get;
+  std::function<void(FrameLayers&, const Floats&)> set;
+};
+
+constexpr float kMostWholeFloat = 16777216.0f; // 2^24: beyond it floats skip whole numbers
+
+const std::array<LayerFormat, 8>& layerFormats() {
+  static const std::vector<std::string> rgb{"R", "G", "B"}, xyz{"X", "Y", "Z"};
+  static const std::array<LayerFormat, 8> formats{{
+      {"color", rgb, [](const FrameLayers& l) { return floatsOf(l.color); },
+       [](FrameLayers& l, const Floats& f) { l.color = vectorsOf(f); }},
+      {"depth",
+       {"Z"},
+       [](const FrameLayers& l) { return l.depth; },
+       [](FrameLayers& l, const Floats& f) { l.depth = f; }},
+      {"normal", xyz, [](const FrameLayers& l) { return floatsOf(l.normal); },
+       [](FrameLayers& l, const Floats& f) { l.normal = vectorsOf(f); }},
+      {"normal_surface", xyz, [](const FrameLayers& l) { return floatsOf(l.normalSurface); },
+       [](FrameLayers& l, const Floats& f) { l.normalSurface = vectorsOf(f); }},
+      {"albedo", rgb, [](const FrameLayers& l) { return floatsOf(l.albedo); },
+       [](FrameLayers& l, const Floats& f) { l.albedo = vectorsOf(f); }},
+      {"id",
+       {"ID"},
+       [](const FrameLayers& l) { return floatsOfWhole(l.id); },
+       [](FrameLayers& l, const Floats& f) { l.id = wholeOf<std::int32_t>(f, -1.0f, kMostWholeFloat); }},
+      {"kind",
+       {"KIND"},
+       [](const FrameLayers& l) { return floatsOfWhole(l.kind); },
+       [](FrameLayers& l, const Floats& f) { l.kind = wholeOf<SurfaceKind>(f, 0.0f, 2.0f); }},
+      {"steps",
+       {"STEPS"},
+       [](const FrameLayers& l) { return l.steps; },
+       [](FrameLayers& l, const Floats& f) { l.steps = f; }},
+  }};
+  return formats;
+}
+
+/// The part's values with exactly these channels in this order.
+Floats channelsOf(const ImagePart& part, const std::vector<std::string>& wanted) {
+  std::vector<std::size_t> columns;
+  for (const std::string& channel : wanted) {
+    const auto found = std::find(part.channels.begin(), part.channels.end(), channel);
+    if (found == part.channels.end()) throw BadInput(fmt::format("has no channel {}", channel));
+    columns.push_back(static_cast<std::size_t>(found - part.channels.begin()));
+  }
+  const std::size_t pixels = std::size_t{part.size.x} * part.size.y;
+  Floats floats;
+  floats.reserve(pixels * columns.size());
+  for (std::size_t i = 0; i < pixels; ++i)
+    for (const std::size_t column : columns) floats.push_back(part.values[i * part.channels.size() + column]);
+  return floats;
+}
+
+} // namespace
+
+void writeLayers(const fs::path& path, const FrameLayers& layers) {
+  const std::size_t pixels = std::size_t{layers.size.x} * layers.size.y;
+  std::vector<ImagePart> parts;
+  for (const LayerFormat& format : layerFormats()) {
+    Floats values = format.get(layers);
+    if (values.empty()) continue;
+    if (values.size() != pixels * format.channels.size())
+      throw Failure(fmt::format("layer {} has {} values for {} x {} pixels", format.name, values.size(), layers.size.x,
+                                layers.size.y));
+    parts.push_back({format.name, layers.size, format.channels, std::move(values)});
+  }
+  if (parts.empty()) throw Failure("no layer to write");
+  writeExrParts(path, parts);
+}
+
+FrameLayers readLayers(const fs::path& path) {
+  std::vector<ImagePart> parts = readExrParts(path);
+  if (parts.size() == 1 && parts[0].name.empty()) parts[0].name = "color";
+  FrameLayers layers;
+  for (const LayerFormat& format : layerFormats()) {
+    const auto part =
+        std::find_if(parts.begin(), parts.end(), [&](const ImagePart& p) { return p.name == format.name; });
+    if (part == parts.end()) continue;
+    const std::string element = fmt::format("part {}", format.name);
+    if (layers.size != glm::uvec2(0) && layers.size != part->size)
+      throw BadInput(path.string(), element, "its size differs from the parts before");
+    layers.size = part->size;
+    try {
+      format.set(layers, channelsOf(*part, format.channels));
+    } catch (const BadInput& error) {
+      throw BadInput(path.string(), element, error.what());
+    }
+  }
+  if (layers.size == glm::uvec2(0)) throw BadInput(path.string(), "", "has no layer that is known here");
+  return layers;
+}
+
+} // namespace brickfield
