@@ -1,0 +1,43 @@
+// Surface attributes at points of triangles, packed as bricks store them: the material's factors, textures and vertex
+// colours, filtered to a voxel.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bakers/mesh_distance.h"
+#include "scene/texture_sampling.h"
+
+namespace brickfield {
+
+struct PackedAttributes {
+  std::uint32_t baseColor = 0; ///< as BrickLevel::baseColor
+  std::uint32_t material = 0;
+  std::uint32_t emission = 0;
+};
+
+class AttributeBaker {
+public:
+  /// Both must outlive this.
+  AttributeBaker(const BakeInput& input, const TriangleSoup& soup);
+
+  /// True if any material of the input can emit.
+  bool hasEmission() const { return hasEmission_; }
+
+  /// on          a point of the triangle
+  /// voxelMetres object space: textures are filtered to a square of this width
+  /// cost        a table look-up where the primitive has neither textures nor vertex colours
+  PackedAttributes at(std::uint32_t triangle, const PointOnTriangle& on, float voxelMetres) const;
+
+private:
+  PackedAttributes sample(const Material& material, const MaterialPoint& point) const;
+
+  const BakeInput* input_;
+  const TriangleSoup* soup_;
+  TextureSampler sampler_;
+  std::vector<std::optional<PackedAttributes>> constants_; ///< a primitive: what it has everywhere
+  bool hasEmission_ = false;
+};
+
+} // namespace brickfield

@@ -1,0 +1,225 @@
+// A bake from start to end: gather, split into solids and sheets, lay out, then level by level.
+#include "bakers/bake.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include "bakers/level_baker.h"
+#include "bakers/sheets.h"
+#include "core/error.h"
+
+namespace brickfield {
+
+namespace {
+
+// A slab half a voxel to each side can fall between two samples and vanish; a sixteenth more cannot, and two steps of
+// the 8-bit code are left below zero.
+constexpr double kLeastHalfThicknessVoxels = 0.5625;
+constexpr std::uint64_t kMostBytes = kMaxFieldBytes;
+constexpr std::uint64_t kReportEveryBricks = 32;
+
+void checkSettings(const BakeSettings& settings) {
+  const auto refuse = [](const char* name, auto value, const char* reason) {
+    throw BadInput(name, fmt::format("{}", value), reason);
+  };
+  if (settings.resolution < 8 || settings.resolution > 1024)
+    refuse("resolution", settings.resolution, "must be from 8 to 1024");
+  if (settings.bits != 8 && settings.bits != 16) refuse("bits", settings.bits, "must be 8 or 16");
+  if (settings.mips < 1 || settings.mips > 4) refuse("mips", settings.mips, "must be from 1 to 4");
+  if (settings.threads < 0) refuse("threads", settings.threads, "must not be negative");
+  if (!(settings.thickness >= 0) || !std::isfinite(settings.thickness))
+    refuse("thickness", settings.thickness, "must be finite and not negative");
+}
+
+/// Counts bricks, reports now and then, and throws when cancelled.
+class BakeProgress {
+public:
+  BakeProgress(const Progress& progress, std::string stage) : progress_(progress), stage_(std::move(stage)) {}
+
+  void begin(std::uint64_t total) {
+    total_ = total;
+    add(0);
+  }
+  void add(std::uint64_t bricks) {
+    if (progress_.isCancelled()) throw Cancelled();
+    if (bricks == 0 || !progress_.report) return;
+    const std::lock_guard lock(mutex_);
+    done_ += bricks;
+    if (done_ % kReportEveryBricks == 0 || done_ == total_) progress_.report(stage_, done_, total_);
+  }
+
+private:
+  const Progress& progress_;
+  std::string stage_;
+  std::mutex mutex_;
+  std::uint64_t total_ = 0, done_ = 0;
+};
+
+/// Everything that the levels share.
+class FieldBaker {
+public:
+  FieldBaker(const BakeInput& input, const BakeSettings& settings, const Progress& progress)
+      : input_(input),
+        settings_(settings),
+        progress_(progress),
+        soup_(gatherTriangles(input)),
+        topology_(analyseTopology(soup_)) {}
+
+  BakeResult run() {
+    split();
+    const GridLayout layout = layoutLevels();
+    BakeResult result;
+    result.field.boundsObject = layout.boundsObject;
+    result.field.originObject = layout.originObject;
+    result.field.sourceHash = bakeHash(input_, settings_);
+    std::optional<AttributeBaker> attributes;
+    if (settings_.attributes) attributes.emplace(input_, soup_);
+    for (std::size_t i = 0; i < layout.levels.size(); ++i)
+      result.field.levels.push_back(bakeOneLevel(layout, i, attributes ? &*attributes : nullptr));
+    fillStats(result);
+    return result;
+  }
+
+private:
+  double longestSide() const {
+    const glm::vec3 extent = soup_.boundsObject.extent();
+    return std::max({extent.x, extent.y, extent.z});
+  }
+  double halfThicknessMetres(double voxelMetres) const {
+    return std::max(0.5 * static_cast<double>(settings_.thickness), kLeastHalfThicknessVoxels * voxelMetres);
+  }
+
+  void split() {
+    SolidsAndSheets split;
+    std::vector<std::uint32_t> all(soup_.triangles.size());
+    for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = t;
+    if (settings_.sign == SignMethod::TwoSided) {
+      split.sheets = std::move(all);
+    } else if (settings_.sign == SignMethod::Auto) {
+      const double voxelMetres = longestSide() / settings_.resolution;
+      SheetRequest request;
+      request.voxelSize = voxelMetres * soup_.unitsPerMetre;
+      request.halfThickness = halfThicknessMetres(voxelMetres) * soup_.unitsPerMetre;
+      request.isCutOut.resize(soup_.triangles.size());
+      for (std::size_t t = 0; t < soup_.triangles.size(); ++t)
+        request.isCutOut[t] =
+            materialOf(*input_.scene, *input_.primitives[soup_.primitiveIndices[t]]).alphaMode != AlphaMode::Opaque;
+      split = findSheets(soup_, topology_, request);
+    } else {
+      split.solid = std::move(all);
+    }
+    sheetCount_ = split.sheets.size();
+    if (!split.sheets.empty()) surfaces_.sheets.emplace(sheetHierarchy_.emplace(soup_, std::move(split.sheets)));
+    if (split.solid.empty()) return;
+    surfaces_.solid.emplace(solidHierarchy_.emplace(soup_, std::move(split.solid)));
+    inside_.emplace(soup_, topology_, *solidHierarchy_, settings_.sign, input_.label);
+  }
+
+  GridLayout layoutLevels() const {
+    Box surface = soup_.boundsObject;
+    if (surfaces_.sheets)
+      surface = surface.expanded(static_cast<float>(halfThicknessMetres(longestSide() / settings_.resolution)));
+    try {
+      return layoutGrid(surface, settings_.resolution, settings_.mips);
+    } catch (const BadInput& error) {
+      throw BadInput(input_.label, "", error.what());
+    }
+  }
+
+  BrickLevel bakeOneLevel(const GridLayout& layout, std::size_t index, const AttributeBaker* attributes) const {
+    BakeProgress progress(progress_,
+                          fmt::format("bake {}, level {} of {}", input_.label, index + 1, layout.levels.size()));
+    LevelBakeRequest request;
+    request.layout = layout.levels[index];
+    request.format = distanceFormatOfBits(settings_.bits);
+    request.inside = inside_ ? &*inside_ : nullptr;
+    request.attributes = attributes;
+    const double voxelMetres = request.layout.voxelSizeObject;
+    SamplingRequest& sampling = request.sampling;
+    sampling.soup = &soup_;
+    sampling.surfaces = &surfaces_;
+    sampling.grid = {soup_.soupFromObject(layout.originObject), voxelMetres * soup_.unitsPerMetre,
+                     request.layout.brickCounts};
+    sampling.halfThickness = halfThicknessMetres(voxelMetres) * soup_.unitsPerMetre;
+    sampling.isComplete = index + 1 == layout.levels.size();
+    sampling.admit = [&](std::size_t bricks) {
+      admitMemory(bricks, index);
+      progress.begin(bricks);
+    };
+    sampling.done = [&](std::size_t bricks) { progress.add(bricks); };
+    return bakeLevel(request);
+  }
+
+  /// Working memory and result of a level: distance and triangle a sample and surface, patch and sign, code,
+  /// attributes.
+  void admitMemory(std::size_t bricks, std::size_t index) const {
+    const std::uint64_t surfaceCount = (surfaces_.solid ? 1u : 0u) + (surfaces_.sheets ? 1u : 0u);
+    const std::uint64_t bytesPerSampleHeld = 8 * surfaceCount + 3 + 2 + (settings_.attributes ? 12u : 0u);
+    const std::uint64_t bytes = bricks * kBrickSampleCount * bytesPerSampleHeld;
+    if (bytes > kMostBytes)
+      throw BadInput(input_.label, fmt::format("level {}", index),
+                     fmt::format("needs {:.1f} GiB for {} bricks, more than {:.0f} GiB; lower the resolution",
+                                 std::ldexp(static_cast<double>(bytes), -30), bricks,
+                                 std::ldexp(static_cast<double>(kMostBytes), -30)));
+  }
+
+  void fillStats(BakeResult& result) const {
+    BakeStats& stats = result.stats;
+    stats.triangles = soup_.triangles.size();
+    stats.degenerateTriangles = soup_.degenerateCount;
+    stats.openEdges = topology_.openEdges;
+    stats.nonManifoldEdges = topology_.nonManifoldEdges;
+    stats.sheetTriangles = sheetCount_;
+    const bool isForced = settings_.sign == SignMethod::Parity || settings_.sign == SignMethod::Pseudonormal;
+    stats.sign = !inside_                               ? "two-sided"
+                 : settings_.sign == SignMethod::Parity ? "parity"
+                 : isForced                             ? "pseudonormal"
+                 : inside_->isConstantBetweenSurfaces() ? "winding of closed surfaces"
+                                                        : "winding of open surfaces";
+    if (inside_ && surfaces_.sheets) stats.sign += " and sheets";
+    for (const BrickLevel& level : result.field.levels) stats.bricks += level.brickCount();
+    stats.bytes = fieldBytes(result.field);
+  }
+
+  const BakeInput& input_;
+  const BakeSettings& settings_;
+  const Progress& progress_;
+  TriangleSoup soup_;
+  MeshTopology topology_;
+  std::optional<MeshHierarchy> solidHierarchy_, sheetHierarchy_;
+  BakeSurfaces surfaces_;
+  std::optional<InsideTest> inside_;
+  std::size_t sheetCount_ = 0;
+};
+
+} // namespace
+
+BakeInput bakeInputOf(const Scene& scene, const PosedInstance& instance) {
+  const Mesh& mesh = scene.meshes.at(static_cast<std::size_t>(instance.mesh));
+  BakeInput input;
+  input.label = nodeLabel(scene, instance.node);
+  input.scene = &scene;
+  for (const Primitive& primitive : mesh.primitives) {
+    input.primitives.push_back(&primitive);
+    input.positionsObject.push_back(isDeformed(primitive, instance) ? deformPrimitive(primitive, instance).positions
+                                                                    : primitive.positions);
+  }
+  return input;
+}
+
+BakeResult bakeField(const BakeInput& input, const BakeSettings& settings, const Progress& progress) {
+  checkSettings(settings);
+  const auto start = std::chrono::steady_clock::now();
+  BakeResult result;
+  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
+  arena.execute([&] { result = FieldBaker(input, settings, progress).run(); });
+  result.stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+} // namespace brickfield

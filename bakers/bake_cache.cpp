@@ -1,0 +1,113 @@
+// Content hash and cache. An entry is HASH.bricks; it is written beside and renamed, so another process sees a whole
+// entry or none. What cannot be read is baked anew and replaced; what cannot be written is not cached.
+#include <chrono>
+#include <cstdlib>
+
+#include "bakers/bake.h"
+#include "core/error.h"
+#include "field/bricks_file.h"
+
+namespace brickfield {
+
+namespace {
+
+constexpr std::uint32_t kBakerVersion = 1; // raise it whenever the same input gives other bytes
+
+void addTexture(Hasher& hasher, const Scene& scene, const TextureSlot& slot) {
+  hasher.add(slot.texture);
+  if (!slot.isUsed()) return;
+  hasher.add(slot.uvSet);
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) hasher.add(slot.textureFromUv[column][row]);
+  const SceneTexture& texture = scene.textures[static_cast<std::size_t>(slot.texture)];
+  hasher.add(texture.wrapU).add(texture.wrapV).add(texture.magnify).add(texture.minify).add(texture.mipmap.has_value());
+  if (texture.mipmap) hasher.add(*texture.mipmap);
+  hasher.add(texture.image);
+  if (texture.image < 0) return;
+  const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
+  hasher.add(image.size.x).add(image.size.y).addArray(image.rgba);
+}
+
+void addMaterial(Hasher& hasher, const Scene& scene, const Material& material, bool attributes) {
+  hasher.add(material.alphaMode); // decides what counts as a sheet
+  if (!attributes) return;
+  for (int i = 0; i < 4; ++i) hasher.add(material.baseColor[i]);
+  for (int i = 0; i < 3; ++i) hasher.add(material.emission[i]);
+  hasher.add(material.metallic).add(material.roughness).add(material.occlusionStrength);
+  hasher.add(material.alphaCutoff).add(material.unlit);
+  addTexture(hasher, scene, material.baseColorTexture);
+  addTexture(hasher, scene, material.metallicRoughnessTexture);
+  addTexture(hasher, scene, material.occlusionTexture);
+  addTexture(hasher, scene, material.emissionTexture);
+}
+
+std::optional<BrickField> readEntry(const std::filesystem::path& path, const Hash128& hash) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return std::nullopt;
+  try {
+    BrickField field = readBricksFile(path);
+    if (field.sourceHash == hash) return field;
+  } catch (const BadInput&) {
+    // damaged, or of another version
+  }
+  return std::nullopt;
+}
+
+void writeEntry(const std::filesystem::path& path, const BrickField& field) {
+  std::error_code ignored;
+  std::filesystem::create_directories(path.parent_path(), ignored);
+  try {
+    writeBricksFile(path, field);
+  } catch (const BadInput&) {
+    // a folder that cannot be written holds no cache
+  }
+}
+
+} // namespace
+
+Hash128 bakeHash(const BakeInput& input, const BakeSettings& settings) {
+  Hasher hasher;
+  hasher.add(kBakerVersion).add(settings.resolution).add(settings.bits).add(settings.mips).add(settings.sign);
+  hasher.add(settings.thickness).add(settings.attributes);
+  for (std::size_t i = 0; i < input.primitives.size(); ++i) {
+    const Primitive& primitive = *input.primitives[i];
+    hasher.addArray(primitive.indices).addArray(input.positionsObject[i]);
+    if (settings.attributes) hasher.addArray(primitive.uvs[0]).addArray(primitive.uvs[1]).addArray(primitive.colors);
+    addMaterial(hasher, *input.scene, materialOf(*input.scene, primitive), settings.attributes);
+  }
+  return hasher.finish();
+}
+
+BakeResult bakeCached(const BakeInput& input, const BakeSettings& settings, const std::filesystem::path& cacheFolder,
+                      const Progress& progress, bool* wasCached) {
+  if (wasCached) *wasCached = false;
+  if (cacheFolder.empty()) return bakeField(input, settings, progress);
+  const auto start = std::chrono::steady_clock::now();
+  const Hash128 hash = bakeHash(input, settings);
+  const std::filesystem::path path = cacheFolder / (hash.text() + ".bricks");
+  if (std::optional<BrickField> field = readEntry(path, hash)) {
+    BakeResult result;
+    result.field = std::move(*field);
+    result.stats.sign = "cached";
+    for (const BrickLevel& level : result.field.levels) result.stats.bricks += level.brickCount();
+    result.stats.bytes = fieldBytes(result.field);
+    result.stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (wasCached) *wasCached = true;
+    return result;
+  }
+  BakeResult result = bakeField(input, settings, progress);
+  writeEntry(path, result.field);
+  return result;
+}
+
+std::filesystem::path defaultCacheFolder() {
+  const auto variable = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::filesystem::path(value ? value : "");
+  };
+  if (const auto folder = variable("XDG_CACHE_HOME"); !folder.empty()) return folder / "brickfield";
+  if (const auto home = variable("HOME"); !home.empty()) return home / ".cache" / "brickfield";
+  return {};
+}
+
+} // namespace brickfield

@@ -1,0 +1,69 @@
+// Choice among the sign methods.
+#include "bakers/inside_test.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace brickfield {
+
+SolidWinding::SolidWinding(const TriangleSoup& soup, const MeshTopology& topology,
+                           const std::vector<std::uint32_t>& triangles, bool signless)
+    : signless_(signless) {
+  std::vector<std::uint32_t> closedTriangles, openTriangles;
+  for (const std::uint32_t triangle : triangles)
+    (topology.inClosedComponent[triangle] ? closedTriangles : openTriangles).push_back(triangle);
+  const auto makePart = [&](std::optional<Part>& part, std::vector<std::uint32_t>& members) {
+    if (members.empty()) return;
+    auto hierarchy = std::make_unique<MeshHierarchy>(soup, std::move(members));
+    WindingNumber winding(*hierarchy);
+    part.emplace(Part{std::move(hierarchy), std::move(winding)});
+  };
+  makePart(closed_, closedTriangles);
+  makePart(open_, openTriangles);
+}
+
+bool SolidWinding::isInside(glm::dvec3 point) const {
+  const float closed = closed_ ? closed_->winding.at(point) : 0.0f;
+  if (signless_) return std::abs(closed + (open_ ? open_->winding.at(point) : 0.0f)) >= 0.5f;
+  return std::abs(closed) >= 0.5f || (open_ && open_->winding.at(point) >= 0.5f);
+}
+
+namespace {
+std::vector<std::uint32_t> trianglesOf(const MeshHierarchy& hierarchy) {
+  std::vector<std::uint32_t> triangles;
+  for (const HierarchyLeaf& leaf : hierarchy.leaves())
+    triangles.insert(triangles.end(), leaf.triangles.begin(), leaf.triangles.begin() + leaf.count);
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+} // namespace
+
+InsideTest::InsideTest(const TriangleSoup& soup, const MeshTopology& topology, const MeshHierarchy& solid,
+                       SignMethod method, const std::string& label)
+    : solid_(&solid), method_(method) {
+  if (method == SignMethod::Pseudonormal) {
+    pseudonormals_ = Pseudonormals::of(soup);
+    if (!pseudonormals_)
+      throw BadInput(label, "",
+                     fmt::format("the sign method pseudonormal needs a closed manifold; this mesh has {} open and {} "
+                                 "non-manifold edges and {} triangles without area",
+                                 topology.openEdges, topology.nonManifoldEdges, soup.degenerateCount));
+  } else if (method == SignMethod::Parity) {
+    isConstant_ = topology.isClosed();
+  } else {
+    winding_.emplace(soup, topology, trianglesOf(solid), method == SignMethod::Winding);
+    isConstant_ = !winding_->hasOpenTriangles();
+  }
+}
+
+bool InsideTest::isInside(glm::dvec3 point) const {
+  if (pseudonormals_) return pseudonormals_->isInside(point, MeshDistance(*solid_).closest(point));
+  if (winding_) return winding_->isInside(point);
+  return isInsideByParity(*solid_, point);
+}
+
+} // namespace brickfield

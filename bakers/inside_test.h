@@ -1,0 +1,61 @@
+// Which points are inside: one face over the sign methods, for the triangles that bound solids. Sheets have no inside
+// and are kept out of it (sheets.h).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bakers/pseudonormals.h"
+#include "bakers/ray_parity.h"
+#include "bakers/winding_number.h"
+
+namespace brickfield {
+
+/// Inside by winding number, where part of the triangles forms closed components and part does not.
+///
+/// Closed ones wrap a point a whole number of times: any number but 0 is inside, so a mesh turned inside out is solid
+/// too, while an inner shell that faces inwards is a cavity. Open ones give fractions: half a turn or more is inside,
+/// but only behind the faces. Before them, half a turn is a valley of terrain or a room seen from within, not a solid.
+class SolidWinding {
+public:
+  /// triangles of the soup; may be empty: nothing is inside
+  /// signless  |w| >= 1/2 is inside for open triangles as well (SignMethod::Winding)
+  SolidWinding(const TriangleSoup& soup, const MeshTopology& topology, const std::vector<std::uint32_t>& triangles,
+               bool signless);
+
+  bool isInside(glm::dvec3 point) const;
+  /// True where the answer can change without a surface between: open triangles.
+  bool hasOpenTriangles() const { return open_.has_value(); }
+
+private:
+  struct Part {
+    std::unique_ptr<MeshHierarchy> hierarchy;
+    WindingNumber winding;
+  };
+  std::optional<Part> closed_, open_;
+  bool signless_;
+};
+
+class InsideTest {
+public:
+  /// method  not TwoSided, which has no inside
+  /// error   BadInput that names `label`: Pseudonormal on a mesh that is no closed manifold
+  InsideTest(const TriangleSoup& soup, const MeshTopology& topology, const MeshHierarchy& solid, SignMethod method,
+             const std::string& label);
+
+  /// point   soup space
+  bool isInside(glm::dvec3 point) const;
+
+  /// True where points that can be joined without crossing a triangle always have the same answer.
+  bool isConstantBetweenSurfaces() const { return isConstant_; }
+
+private:
+  const MeshHierarchy* solid_;
+  SignMethod method_;
+  std::optional<SolidWinding> winding_;
+  std::optional<Pseudonormals> pseudonormals_;
+  bool isConstant_ = true;
+};
+
+} // namespace brickfield

@@ -1,0 +1,125 @@
+// The surface of a sample is what bounds it: the union of solids and slabs, min(signed solid distance, slab distance).
+#include "bakers/level_baker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+
+namespace brickfield {
+
+namespace {
+
+constexpr std::size_t kSamples = kBrickSampleCount;
+constexpr float kAttributeVoxels =
+    2.0f; // trilinear reads reach sqrt(3) voxels from a hit; the rest is for hits off zero
+
+/// Signed distances in voxels and the triangles that they come from, in the place of the solids' (or sheets') own
+/// arrays.
+struct SignedSamples {
+  std::vector<float> distances;
+  std::vector<std::uint32_t> triangles;
+};
+
+SignedSamples combine(LevelSamples& level, const std::vector<std::uint8_t>& sampleInside) {
+  if (level.solidDistances.empty()) return {std::move(level.sheetDistances), std::move(level.sheetTriangles)};
+  SignedSamples result{std::move(level.solidDistances), std::move(level.solidTriangles)};
+  for (std::size_t i = 0; i < result.distances.size(); ++i) {
+    if (sampleInside[i]) result.distances[i] = -result.distances[i];
+    if (level.sheetDistances.empty() || level.sheetDistances[i] >= result.distances[i]) continue;
+    result.distances[i] = level.sheetDistances[i];
+    result.triangles[i] = level.sheetTriangles[i];
+  }
+  return result;
+}
+
+void fillIndirection(BrickLevel& level, const LevelSamples& samples, const LevelSigns& signs) {
+  for (std::size_t cell = 0; cell < samples.brickOfCell.size(); ++cell) {
+    const bool inside = samples.cellInSheet[cell] || (!signs.cellInside.empty() && signs.cellInside[cell]);
+    level.indirection[cell] = samples.brickOfCell[cell] != kNoBrick
+                                  ? IndirectionCell::brick(samples.brickOfCell[cell]).bits
+                                  : IndirectionCell::empty(inside, samples.cellBounds[cell]).bits;
+  }
+}
+
+void encodeDistances(BrickLevel& level, const SignedSamples& samples, std::size_t brickCount) {
+  level.distances.resize(brickCount * kSamples * bytesPerSample(level.format));
+  tbb::parallel_for(std::size_t{0}, brickCount, [&](std::size_t b) {
+    std::array<float, kSamples> distancesObject;
+    for (std::size_t i = 0; i < kSamples; ++i)
+      distancesObject[i] = samples.distances[b * kSamples + i] * level.voxelSizeObject;
+    writeBrickDistances(level, static_cast<std::uint32_t>(b), distancesObject);
+  });
+}
+
+/// Attributes of one brick.
+class BrickAttributes {
+public:
+  BrickAttributes(const LevelBakeRequest& request, const SignedSamples& samples, glm::ivec3 brick, std::size_t begin)
+      : request_(request), samples_(samples), brick_(brick), begin_(begin) {}
+
+  void fill(BrickLevel& level) const {
+    PackedAttributes last = at(leastDistant());
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      if (std::abs(samples_.distances[begin_ + i]) <= kAttributeVoxels) last = at(i);
+      level.baseColor[begin_ + i] = last.baseColor;
+      level.material[begin_ + i] = last.material;
+      if (!level.emission.empty()) level.emission[begin_ + i] = last.emission;
+    }
+  }
+
+private:
+  std::size_t leastDistant() const {
+    const auto begin = samples_.distances.begin() + static_cast<std::ptrdiff_t>(begin_);
+    const auto isNearer = [](float a, float b) { return std::abs(a) < std::abs(b); };
+    return static_cast<std::size_t>(std::min_element(begin, begin + kSamples, isNearer) - begin);
+  }
+  PackedAttributes at(std::size_t i) const {
+    const auto index = static_cast<int>(i);
+    const glm::ivec3 sample(index % kBrickSamples, index / kBrickSamples % kBrickSamples,
+                            index / (kBrickSamples * kBrickSamples));
+    const std::uint32_t triangle = samples_.triangles[begin_ + i];
+    const PointOnTriangle on = closestPointOnTriangle(request_.sampling.grid.sample(brick_, sample),
+                                                      request_.sampling.soup->corners(triangle));
+    return request_.attributes->at(triangle, on, request_.layout.voxelSizeObject);
+  }
+
+  const LevelBakeRequest& request_;
+  const SignedSamples& samples_;
+  glm::ivec3 brick_;
+  std::size_t begin_;
+};
+
+void fillAttributes(BrickLevel& level, const LevelBakeRequest& request, const LevelSamples& samples,
+                    const SignedSamples& signedSamples) {
+  level.baseColor.resize(samples.brickCount() * kSamples);
+  level.material.resize(samples.brickCount() * kSamples);
+  if (request.attributes->hasEmission()) level.emission.resize(samples.brickCount() * kSamples);
+  tbb::parallel_for(std::size_t{0}, samples.brickCount(), [&](std::size_t b) {
+    request.sampling.done(0);
+    const glm::ivec3 brick = samples.grid.brickOfCell(samples.cellOfBrick[b]);
+    BrickAttributes(request, signedSamples, brick, b * kSamples).fill(level);
+  });
+}
+
+} // namespace
+
+BrickLevel bakeLevel(const LevelBakeRequest& request) {
+  LevelSamples samples = sampleLevel(request.sampling);
+  LevelSigns signs;
+  if (request.inside) signs = floodSigns(samples, *request.inside);
+  const SignedSamples signedSamples = combine(samples, signs.sampleInside);
+
+  const bool isComplete = request.sampling.isComplete;
+  float range = kNarrowBandVoxels;
+  if (isComplete)
+    for (const float distance : signedSamples.distances)
+      range = std::max(range, rangeVoxelsWithoutClamp(std::abs(distance)));
+  BrickLevel level = makeLevel(request.layout, isComplete ? DistanceFormat::R16Snorm : request.format, range);
+  fillIndirection(level, samples, signs);
+  encodeDistances(level, signedSamples, samples.brickCount());
+  if (request.attributes) fillAttributes(level, request, samples, signedSamples);
+  return level;
+}
+
+} // namespace brickfield

@@ -1,0 +1,20 @@
+// One level of a field out of distances, signs and attributes.
+#pragma once
+
+#include "bakers/attribute_baker.h"
+#include "bakers/sign_flood.h"
+
+namespace brickfield {
+
+struct LevelBakeRequest {
+  LevelLayout layout;
+  DistanceFormat format = DistanceFormat::R8Snorm; ///< complete levels are R16 whatever it says
+  SamplingRequest sampling;
+  const InsideTest* inside = nullptr;         ///< nothing where no triangle is solid
+  const AttributeBaker* attributes = nullptr; ///< nothing: the level gets none
+};
+
+/// Attributes are exact within two voxels of the surface; farther samples repeat one of their brick.
+BrickLevel bakeLevel(const LevelBakeRequest& request);
+
+} // namespace brickfield

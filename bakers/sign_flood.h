@@ -1,0 +1,20 @@
+// Signs of a level: parts of space that no triangle divides have one sign, found by flooding over samples and decided
+// by several inside tests each; where those disagree (open meshes), sample by sample.
+#pragma once
+
+#include "bakers/inside_test.h"
+#include "bakers/level_sampler.h"
+
+namespace brickfield {
+
+struct LevelSigns {
+  std::vector<std::uint8_t> sampleInside; ///< 512 a brick
+  std::vector<std::uint8_t> cellInside;   ///< a cell; of use where there is no brick
+};
+
+/// level     with solid distances
+/// returns   1 where inside the solids
+/// proved by tests/bake/bakers/sign_test.cpp
+LevelSigns floodSigns(const LevelSamples& level, const InsideTest& test);
+
+} // namespace brickfield
