@@ -1,0 +1,3 @@
+# Every C++ file has the shape of .clang-format.
+set -euo pipefail
+tools/format --check
