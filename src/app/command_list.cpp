@@ -5,17 +5,22 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
-#include "app/run_render.h"
 #include "app/session.h"
 #include "gpu/context.h"
+#include "renderer/renderer.h"
 #include "scene/gltf_import.h"
 
 namespace brickfield {
 
 namespace {
 
-int printNames(const std::vector<NameAndMeaning>& entries) {
-  for (const NameAndMeaning& entry : entries) fmt::print("{:<24} {}\n", entry.name, entry.meaning);
+int printViews() {
+  for (const DebugView& view : debugViews()) fmt::print("{:<24} {}\n", view.name, view.meaning);
+  return 0;
+}
+
+int printPasses() {
+  for (const std::string& name : framePassNames()) fmt::print("{}\n", name);
   return 0;
 }
 
@@ -52,8 +57,8 @@ void addListCommand(CLI::App& program, CommandAction& chosen) {
   const auto add = [&](const char* name, const char* description, CommandAction action) {
     command.add_subcommand(name, description)->callback([action, &chosen] { chosen = action; });
   };
-  add("views", "What --view takes", [] { return printNames(viewNames()); });
-  add("passes", "The passes of a frame, in order", [] { return printNames(passNames()); });
+  add("views", "What --view takes", [] { return printViews(); });
+  add("passes", "The passes of a frame, in order", [] { return printPasses(); });
   add("devices", "What --device takes", [] { return printDevices(); });
   CLI::App& cameras = *command.add_subcommand("cameras", "What --camera takes for a scene");
   const auto scene = std::make_shared<std::filesystem::path>();

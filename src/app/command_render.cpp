@@ -10,6 +10,7 @@
 #include "app/parse.h"
 #include "app/run_render.h"
 #include "core/error.h"
+#include "renderer/settings.h"
 
 namespace brickfield {
 
@@ -23,8 +24,8 @@ TraceChoice parseTrace(const std::string& flag, const std::string& text) {
 
 void checkView(const std::string& view) {
   if (view.empty()) return;
-  const std::vector<NameAndMeaning> views = viewNames();
-  if (std::any_of(views.begin(), views.end(), [&](const NameAndMeaning& known) { return known.name == view; })) return;
+  const std::vector<DebugView>& views = debugViews();
+  if (std::any_of(views.begin(), views.end(), [&](const DebugView& known) { return known.name == view; })) return;
   throw BadInput("--view", fmt::format("\"{}\"", view), "is no view; \"brickfield list views\" names them");
 }
 
