@@ -77,7 +77,8 @@ struct Layout {
   int rows = 1;
   std::uint64_t component = 4;
   std::uint64_t column = 4;
-  std::uint64_t element = 4; // bytes from the first to behind the last component, padding of the last column included
+  std::uint64_t element = 4; // bytes from one packed element to the next
+  std::uint64_t extent = 4;  // bytes from the first to behind the last component
 };
 
 Layout layoutOf(int type, int componentType) {
@@ -108,6 +109,8 @@ Layout layoutOf(int type, int componentType) {
   layout.column = layout.component * static_cast<std::uint64_t>(layout.rows);
   if (layout.columns > 1) layout.column = (layout.column + 3) / 4 * 4;
   layout.element = layout.column * static_cast<std::uint64_t>(layout.columns);
+  layout.extent = layout.column * static_cast<std::uint64_t>(layout.columns - 1) +
+                  layout.component * static_cast<std::uint64_t>(layout.rows);
   return layout;
 }
 
@@ -142,7 +145,7 @@ void checkRange(const GltfDocument& document, const std::string& element, int vi
                 std::uint64_t count, const Layout& layout) {
   const BufferView& view = document.model->bufferViews[static_cast<std::size_t>(viewIndex)];
   const std::uint64_t stride = view.byteStride ? view.byteStride : layout.element;
-  if (stride < layout.element)
+  if (stride < layout.extent)
     document.refuse(element, fmt::format("elements of {} bytes do not fit byteStride {} of bufferView {}",
                                          layout.element, stride, viewIndex));
   if (byteOffset % layout.component != 0 || (byteOffset + view.byteOffset) % layout.component != 0)
@@ -150,7 +153,7 @@ void checkRange(const GltfDocument& document, const std::string& element, int vi
   if (layout.columns > 1 && (byteOffset % 4 != 0 || view.byteOffset % 4 != 0))
     document.refuse(element, "its matrices do not start at a multiple of 4 bytes");
   // count < 2^32, stride <= 252, byteOffset <= 2^53: no sum below can wrap.
-  const std::uint64_t end = byteOffset + stride * (count - 1) + layout.element;
+  const std::uint64_t end = byteOffset + stride * (count - 1) + layout.extent;
   if (end > view.byteLength)
     document.refuse(element, fmt::format("needs {} bytes, bufferView {} has {}", end, viewIndex, view.byteLength));
 }

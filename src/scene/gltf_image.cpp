@@ -48,23 +48,30 @@ namespace {
 
 using nlohmann::json;
 
-// Bytes of an image as the file stores them; `owned` keeps alive what a uri led to.
-std::span<const std::byte> encodedImage(const GltfDocument& document, const json& image, const std::string& element,
-                                        std::vector<std::byte>& owned) {
+// What can be said without opening anything; unused images have to keep to it as well.
+void checkImage(const GltfDocument& document, const json& image, const std::string& element) {
   const bool hasUri = image.contains("uri"), hasView = image.contains("bufferView");
   if (hasUri == hasView)
     document.refuse(element, hasUri ? "has both uri and bufferView" : "has neither uri nor bufferView");
-  if (hasUri) {
+  if (hasUri) return;
+  if (!image.contains("mimeType")) document.refuse(element, "lies in a bufferView but has no mimeType");
+  const int viewIndex = image["bufferView"].get<int>();
+  if (document.model->bufferViews[static_cast<std::size_t>(viewIndex)].byteStride != 0)
+    document.refuse(element, fmt::format("bufferView {} has a byteStride", viewIndex));
+}
+
+// Bytes of an image as the file stores them; `owned` keeps alive what a uri led to.
+std::span<const std::byte> encodedImage(const GltfDocument& document, const json& image, const std::string& element,
+                                        std::vector<std::byte>& owned) {
+  if (image.contains("uri")) {
     const UriContext context{document.file, element, document.folder, document.limits.fileBytes};
     owned = readUri(image["uri"].get_ref<const std::string&>(), context, {"image/png", "image/jpeg", "image/jpg"});
     return owned;
   }
-  if (!image.contains("mimeType")) document.refuse(element, "lies in a bufferView but has no mimeType");
   const int viewIndex = image["bufferView"].get<int>();
   const tinygltf::BufferView& view = document.model->bufferViews[static_cast<std::size_t>(viewIndex)];
   const auto& buffer = document.buffers[static_cast<std::size_t>(view.buffer)];
   if (!buffer) document.refuse(element, fmt::format("lies in buffer {}, which has no data", view.buffer));
-  if (view.byteStride != 0) document.refuse(element, fmt::format("bufferView {} has a byteStride", viewIndex));
   return buffer->subspan(view.byteOffset, view.byteLength);
 }
 
@@ -121,6 +128,7 @@ void importImages(GltfDocument& document, Scene& scene) {
   for (std::size_t i = 0; i < images.size(); ++i) {
     const std::string name = images[i].value("name", "");
     const std::string element = elementLabel("image", i, name);
+    checkImage(document, images[i], element);
     std::vector<std::byte> owned;
     Image image;
     if (used.contains(static_cast<int>(i)))

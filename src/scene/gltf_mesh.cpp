@@ -67,6 +67,7 @@ public:
   /// Nothing for what is no surface: points, lines, primitives without positions.
   std::optional<Primitive> read() {
     if (source_.mode < TINYGLTF_MODE_TRIANGLES) {
+      checkUndrawnIndices();
       warn(source_.mode == TINYGLTF_MODE_POINTS ? "points are left out" : "lines are left out");
       return std::nullopt;
     }
@@ -80,7 +81,7 @@ public:
     primitive_.material = source_.material;
     primitive_.positions = attribute<glm::vec3>("POSITION", kPosition);
     primitive_.normals = attribute<glm::vec3>("NORMAL", kNormal);
-    primitive_.tangents = attribute<glm::vec4>("TANGENT", kTangent);
+    readTangents();
     primitive_.uvs = {attribute<glm::vec2>("TEXCOORD_0", kUv), attribute<glm::vec2>("TEXCOORD_1", kUv)};
     readColors();
     readInfluences();
@@ -114,6 +115,12 @@ private:
     if (!accessor) return {};
     checkAttribute(*accessor, encoding, name);
     return asVectors<Vector>(readFloats(document_, *accessor));
+  }
+
+  void readTangents() {
+    const std::optional<int> accessor = find(source_.attributes, "TANGENT");
+    if (accessor && accessorIsEmpty(document_, *accessor)) return warn("TANGENT has no data and is left out");
+    primitive_.tangents = attribute<glm::vec4>("TANGENT", kTangent);
   }
 
   void readColors() {
@@ -233,22 +240,36 @@ private:
           return warn(fmt::format("morphed {} is left out", name));
   }
 
-  void readIndices() {
+  std::vector<std::uint32_t> vertexRun() {
     std::vector<std::uint32_t> vertices;
-    if (source_.indices >= 0) {
-      checkFormat(document_, source_.indices, {"SCALAR", "u8 u16 u32", false}, element_ + ": indices");
-      document_.spendIndices(3 * accessorCount(document_, source_.indices), element_);
-      vertices = readIntegers(document_, source_.indices);
-      for (std::size_t i = 0; i < vertices.size(); ++i)
-        if (vertices[i] >= vertexCount_)
-          document_.refuse(
-              element_, fmt::format("index {} at {} is not below the vertex count {}", vertices[i], i, vertexCount_));
-      checkRestart(vertices);
-    } else {
+    if (source_.indices < 0) {
       document_.spendIndices(3 * vertexCount_, element_);
       vertices.resize(vertexCount_);
       std::iota(vertices.begin(), vertices.end(), 0u);
+      return vertices;
     }
+    checkFormat(document_, source_.indices, {"SCALAR", "u8 u16 u32", false}, element_ + ": indices");
+    // A strip has up to three times as many indices as a list.
+    document_.spendIndices(3 * accessorCount(document_, source_.indices), element_);
+    vertices = readIntegers(document_, source_.indices);
+    checkRestart(vertices);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      if (vertices[i] >= vertexCount_)
+        document_.refuse(element_,
+                         fmt::format("index {} at {} is not below the vertex count {}", vertices[i], i, vertexCount_));
+    return vertices;
+  }
+
+  // What is not drawn must be well-formed all the same.
+  void checkUndrawnIndices() {
+    const std::optional<int> position = find(source_.attributes, "POSITION");
+    if (!position || source_.indices < 0) return;
+    vertexCount_ = accessorCount(document_, *position);
+    vertexRun();
+  }
+
+  void readIndices() {
+    const std::vector<std::uint32_t> vertices = vertexRun();
     const bool isList = source_.mode == TINYGLTF_MODE_TRIANGLES;
     if (vertices.size() < 3 || (isList && vertices.size() % 3 != 0))
       warn(fmt::format("{} vertices do not make whole triangles, the rest is left out", vertices.size()));

@@ -36,6 +36,11 @@ std::vector<glm::mat4> bindMatrices(GltfDocument& document, const tinygltf::Skin
   if (count < source.joints.size())
     document.refuse(element, fmt::format("has {} inverse bind matrices for {} joints", count, source.joints.size()));
   if (count > source.joints.size()) document.spendVertices(count - source.joints.size(), element);
+  if (accessorIsEmpty(document, accessor)) {
+    document.warnings.push_back(
+        fmt::format("{}: its inverse bind matrices have no data and count as identity", element));
+    return std::vector<glm::mat4>(source.joints.size(), glm::mat4(1.0f));
+  }
   const std::vector<float> numbers = readFloats(document, accessor);
   std::vector<glm::mat4> matrices(source.joints.size());
   constexpr float kTolerance = 1e-3f;
