@@ -21,31 +21,33 @@ glm::vec3 ReferenceShading::sky(glm::vec3 directionWorld) const {
   return sampleEnvironment(lighting_.environment, directionWorld);
 }
 
+glm::vec3 ReferenceShading::environmentLight(const SurfaceBrdf& brdf, float roughness, glm::vec3 normalWorld,
+                                             glm::vec3 towardsViewer) const {
+  const glm::vec3 irradiance = glm::max(evaluateHarmonics(irradiance_, normalWorld), glm::vec3(0.0f));
+  const glm::vec2 entry = environmentBrdf(roughness, glm::dot(normalWorld, towardsViewer));
+  const glm::vec3 specularShare = brdf.f0 * entry.x + entry.y;
+  const glm::vec3 mirrored = samplePrefiltered(environment_, glm::reflect(-towardsViewer, normalWorld), roughness);
+  // What the specular lobe sends back does not reach the diffuse layer.
+  return (1.0f - specularShare) * brdf.diffuse * irradiance / std::numbers::pi_v<float> + specularShare * mirrored;
+}
+
 glm::vec3 ReferenceShading::shade(const SurfaceHit& surface, const MaterialSample& material, glm::vec3 normalWorld,
                                   glm::vec3 towardsViewer) const {
   const glm::vec3 baseColor(material.baseColor);
   if (surface.material->unlit) return baseColor;
-  const glm::vec3 normal = visibleNormal(normalWorld, towardsViewer);
   const SurfaceBrdf brdf = makeBrdf(baseColor, material.metallic, material.roughness);
-
-  const float nDotV = glm::dot(normal, towardsViewer);
-  const glm::vec3 irradiance = glm::max(evaluateHarmonics(irradiance_, normal), glm::vec3(0.0f));
-  const glm::vec2 mirrored = environmentBrdf(material.roughness, nDotV);
-  const glm::vec3 reflected = glm::reflect(-towardsViewer, normal);
-  glm::vec3 radiance = material.emission;
-  radiance += material.occlusion * brdf.diffuse * irradiance / std::numbers::pi_v<float>;
-  radiance += material.occlusion * glm::max(brdf.f0 * mirrored.x + mirrored.y, glm::vec3(0.0f)) *
-              samplePrefiltered(environment_, reflected, material.roughness);
+  glm::vec3 radiance =
+      material.emission + material.occlusion * environmentLight(brdf, material.roughness, normalWorld, towardsViewer);
 
   // Shadow rays start off the surface on the viewer's side, by more than what rounding may have moved the point.
   const glm::vec3 sideNormal = surface.isBackFace ? -surface.normalTriangle : surface.normalTriangle;
   const glm::vec3 start = surface.position + 2.0f * surface.positionError * sideNormal;
   for (const PosedLight& light : lighting_.lights) {
     const LightArrival arrival = lightArrivalAt(light, surface.position);
-    const float nDotL = glm::dot(normal, arrival.towardsLight);
+    const float nDotL = glm::dot(normalWorld, arrival.towardsLight);
     if (nDotL <= 0.0f || arrival.irradiance == glm::vec3(0.0f)) continue;
     const glm::vec3 answer =
-        evaluateBrdf(brdf, normal, towardsViewer, arrival.towardsLight) * arrival.irradiance * nDotL;
+        evaluateBrdf(brdf, normalWorld, towardsViewer, arrival.towardsLight) * arrival.irradiance * nDotL;
     if (answer == glm::vec3(0.0f) || geometry_.isOccluded(start, arrival.towardsLight, arrival.distance)) continue;
     radiance += answer;
   }

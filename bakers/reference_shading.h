@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bakers/reference_geometry.h"
+#include "scene/brdf.h"
 #include "scene/lighting.h"
 #include "scene/prefiltered_environment.h"
 
@@ -26,6 +27,9 @@ public:
   glm::vec3 sky(glm::vec3 directionWorld) const;
 
 private:
+  glm::vec3 environmentLight(const SurfaceBrdf& brdf, float roughness, glm::vec3 normalWorld,
+                             glm::vec3 towardsViewer) const;
+
   const Lighting& lighting_;
   const ReferenceGeometry& geometry_;
   std::array<glm::vec3, 9> irradiance_;

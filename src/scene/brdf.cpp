@@ -8,7 +8,8 @@ namespace brickfield {
 
 namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kDielectricF0 = 0.04f; // index of refraction 1.5
+constexpr float kDielectricF0 = 0.04f;      // index of refraction 1.5
+constexpr float kLeastViewerCosine = 1e-4f; // keeps the visibility's denominator off zero on smooth surfaces
 } // namespace
 
 SurfaceBrdf makeBrdf(glm::vec3 baseColor, float metallic, float roughness) {
@@ -38,25 +39,13 @@ glm::vec3 fresnelSchlick(glm::vec3 f0, float vDotH) {
 }
 
 glm::vec3 evaluateBrdf(const SurfaceBrdf& brdf, glm::vec3 normal, glm::vec3 towardsViewer, glm::vec3 towardsLight) {
-  const float nDotL = glm::dot(normal, towardsLight), nDotV = glm::dot(normal, towardsViewer);
-  if (nDotL <= 0.0f || nDotV <= 0.0f) return glm::vec3(0.0f);
+  const float nDotL = glm::dot(normal, towardsLight);
+  if (nDotL <= 0.0f) return glm::vec3(0.0f);
+  const float nDotV = std::max(glm::dot(normal, towardsViewer), kLeastViewerCosine);
   const glm::vec3 halfway = glm::normalize(towardsViewer + towardsLight);
   const glm::vec3 fresnel = fresnelSchlick(brdf.f0, glm::dot(towardsViewer, halfway));
   const float lobe = distributionGgx(brdf.alpha, glm::dot(normal, halfway)) * visibilitySmith(brdf.alpha, nDotL, nDotV);
   return (1.0f - fresnel) * brdf.diffuse / kPi + fresnel * lobe;
-}
-
-glm::vec3 visibleNormal(glm::vec3 normal, glm::vec3 towardsViewer) {
-  constexpr float kLeastCosine = 1e-3f; // a twentieth of a degree above the horizon
-  const float cosine = glm::dot(normal, towardsViewer);
-  return cosine >= kLeastCosine ? normal : glm::normalize(normal + (kLeastCosine - cosine) * towardsViewer);
-}
-
-glm::vec2 environmentBrdf(float roughness, float nDotV) {
-  const glm::vec4 kSlope(-1.0f, -0.0275f, -0.572f, 0.022f), kOffset(1.0f, 0.0425f, 1.04f, -0.04f);
-  const glm::vec4 r = roughness * kSlope + kOffset;
-  const float bend = std::min(r.x * r.x, std::exp2(-9.28f * nDotV)) * r.x + r.y;
-  return glm::vec2(-1.04f, 1.04f) * bend + glm::vec2(r.z, r.w);
 }
 
 float distanceFalloff(float distance, float range) {

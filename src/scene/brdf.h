@@ -31,17 +31,17 @@ float visibilitySmith(float alpha, float nDotL, float nDotV);
 /// Schlick 1994.
 glm::vec3 fresnelSchlick(glm::vec3 f0, float vDotH);
 
-/// The whole BRDF, without the cosine: (1 - F) c_diff / pi + F D V. Zero where light or viewer are below the horizon.
+/// The whole BRDF, without the cosine: (1 - F) c_diff / pi + F D V. Zero where the light is below the horizon; a viewer
+/// below it (interpolated and mapped normals do that) counts as just above.
 ///
-/// returns   per steradian; symmetric in the two directions
+/// returns   per steradian; symmetric in two directions above the horizon
 /// proved by tests/unit/scene/brdf_test.cpp
 glm::vec3 evaluateBrdf(const SurfaceBrdf& brdf, glm::vec3 normal, glm::vec3 towardsViewer, glm::vec3 towardsLight);
 
-/// The shading normal, bent just over the horizon of the viewer where interpolation or a normal map turned it away.
-glm::vec3 visibleNormal(glm::vec3 normal, glm::vec3 towardsViewer);
-
-/// What a white environment returns through the specular lobe is f0 * x + y: a fit of the integral (Karis, "Physically
-/// Based Shading on Mobile", 2014), within 0.04 of it.
+/// What a white environment returns through the specular lobe is f0 * x + y (Karis, "Real Shading in Unreal Engine 4",
+/// 2013), from a table that is integrated at the first call.
+///
+/// cost      about 50 ms at the first call, eight reads after that; safe from any number of threads
 glm::vec2 environmentBrdf(float roughness, float nDotV);
 
 /// KHR_lights_punctual: 1/d^2, windowed to end at the range (0: no end). distance > 0
