@@ -140,7 +140,7 @@ struct EglEntryPoints {
     }
     if (hasExtension(client, "EGL_EXT_platform_base")) load(getPlatformDisplay, "eglGetPlatformDisplayEXT");
     if (!getPlatformDisplay) {
-      why = "EGL lacks EGL_EXT_platform_base";
+      why = "EGL lacks EGL_EXT_platform_base (is a driver installed?)";
       return;
     }
     surfacelessPlatform = hasExtension(client, "EGL_MESA_platform_surfaceless");

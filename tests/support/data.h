@@ -12,6 +12,8 @@ std::filesystem::path dataFolder();
 std::filesystem::path dataFile(std::string_view name);
 /// Whether the data folder exists.
 bool hasData();
+/// Prints "NOT RUN: TEST: REASON" to stderr, for what a machine lacks and a test cannot do without.
+void reportNotRun(std::string_view reason);
 /// Whether this file exists; if not, prints "NOT RUN: TEST: FILE missing" to stderr.
 bool requireData(std::string_view name);
 
