@@ -76,9 +76,10 @@ TEST(ValidateField, NamesWhatIsWrong) {
       {"unknown bits", [](BrickField& f) { f.levels[0].indirection[0] = 0x80010000u; }},
       {"must have every brick", [](BrickField& f) { f.levels[1].indirection[5] = 0x80000010u; }},
   };
+  const BrickField sound = soundField();
+  ASSERT_EQ(sound.levels[1].brickCounts, glm::ivec3(7)) << "the cases count on it";
   for (const Case& c : cases) {
-    BrickField field = soundField();
-    ASSERT_EQ(field.levels[1].brickCounts, glm::ivec3(7)) << "the cases below count on it";
+    BrickField field = sound;
     c.damage(field);
     const std::string wrong = validateField(field);
     EXPECT_THAT(wrong, HasSubstr(c.expected));
