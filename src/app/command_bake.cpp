@@ -11,6 +11,7 @@
 #include "app/parse.h"
 #include "app/progress_bar.h"
 #include "app/session.h"
+#include "core/error.h"
 #include "core/files.h"
 #include "field/bricks_file.h"
 #include "scene/gltf_import.h"
@@ -96,8 +97,8 @@ void addOptions(CLI::App& command, BakeRequest& request) {
            [&](auto& flag, auto& text) { request.sdf.resolution = static_cast<int>(parseWhole(flag, text, 8, 1024)); })
       ->type_name("N");
   addValue(command, "--bits", "Bits of a distance, 8 or 16; 8 by default", [&](auto& flag, auto& text) {
-    request.bits = static_cast<int>(parseWhole(flag, text, 8, 16));
-    if (*request.bits != 8 && *request.bits != 16) throw CLI::ValidationError(flag, "is neither 8 nor 16");
+    if (text != "8" && text != "16") throw BadInput(flag, "\"" + text + "\"", "is neither 8 nor 16");
+    request.bits = text == "8" ? 8 : 16;
   })->type_name("8|16");
   addValue(command, "--mips", "Levels of resolution, 1 to 4; 3 by default", [&](auto& flag, auto& text) {
     request.mips = static_cast<int>(parseWhole(flag, text, 1, 4));

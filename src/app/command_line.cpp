@@ -48,18 +48,27 @@ void checkCommand(CLI::App& program, const std::vector<std::string>& arguments) 
   throw BadInput(first, "", fmt::format("is no command; there are {}", fmt::join(names, ", ")));
 }
 
+/// CLI11 collects what it does not know in an order of its own.
+std::string firstOf(const std::vector<std::string>& unknown, const std::vector<std::string>& arguments) {
+  const auto first = std::find_first_of(arguments.begin(), arguments.end(), unknown.begin(), unknown.end());
+  return first == arguments.end() ? "an argument" : "\"" + *first + "\"";
+}
+
 int parseAndRun(std::vector<std::string> arguments) {
   CLI::App program("Renders glTF scenes in which any node may be a signed distance field.", "brickfield");
   program.set_version_flag("--version", "brickfield " BRICKFIELD_VERSION);
   CommandAction chosen;
   addCommands(program, chosen);
   checkCommand(program, arguments);
-  const std::string command = arguments.front();
+  const std::vector<std::string> words = arguments;
+  const std::string command = words.front();
   try {
     std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
     program.parse(std::move(arguments));
   } catch (const CLI::Success& request) { // help, version
     return program.exit(request);
+  } catch (const CLI::ExtrasError&) {
+    throw BadInput(command, firstOf(program.remaining(true), words), "is not expected here; see --help");
   } catch (const CLI::ParseError& error) {
     throw BadInput(command, "", error.what());
   }

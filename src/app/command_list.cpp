@@ -6,6 +6,7 @@
 
 #include "app/options.h"
 #include "app/session.h"
+#include "core/error.h"
 #include "gpu/context.h"
 #include "renderer/renderer.h"
 #include "scene/gltf_import.h"
@@ -53,7 +54,10 @@ int printDevices() {
 
 void addListCommand(CLI::App& program, CommandAction& chosen) {
   CLI::App& command = *program.add_subcommand("list", "List what other commands take by name");
-  command.require_subcommand(1);
+  command.require_subcommand(0, 1);
+  command.callback([&command] {
+    if (command.get_subcommands().empty()) throw BadInput("list", "", "needs one of views, passes, cameras, devices");
+  });
   const auto add = [&](const char* name, const char* description, CommandAction action) {
     command.add_subcommand(name, description)->callback([action, &chosen] { chosen = action; });
   };

@@ -97,7 +97,7 @@ RgbImage heatmapOf(const LayerDifference& difference, glm::uvec2 size) {
       image.pixels.push_back(kUnmatchedColor);
       continue;
     }
-    const float position = largest > 0 ? error / largest * (kRamp.size() - 1) : 0.0f;
+    const float position = largest > 0 ? std::sqrt(error / largest) * (kRamp.size() - 1) : 0.0f;
     const std::size_t step = std::min(static_cast<std::size_t>(position), kRamp.size() - 2);
     image.pixels.push_back(glm::mix(kRamp[step], kRamp[step + 1], position - static_cast<float>(step)));
   }

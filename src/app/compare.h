@@ -38,7 +38,8 @@ struct LayerDifference {
 /// proved by tests/unit/app/compare_test.cpp
 LayerDifference compareParts(const ImagePart& a, const ImagePart& b, Metric metric);
 
-/// Black through blue, red and yellow to white at the greatest error; green where unmatched.
+/// Black through blue, red and yellow to white at the greatest error, by its square root, so that one bad pixel does
+/// not hide the others; green where unmatched.
 RgbImage heatmapOf(const LayerDifference& difference, glm::uvec2 size);
 
 } // namespace brickfield

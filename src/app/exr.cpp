@@ -25,6 +25,8 @@ OIIO::ImageSpec specOf(const ImagePart& part) {
                        static_cast<int>(part.channels.size()), OIIO::TypeDesc::FLOAT);
   spec.channelnames = part.channels;
   spec.attribute("compression", "zip");
+  // Else the library writes the time of day, and no two files are alike.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
   if (!part.name.empty()) spec.attribute("oiio:subimagename", part.name);
   return spec;
 }

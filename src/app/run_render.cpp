@@ -1,0 +1,110 @@
+// From a request to files: load, pose, bake, draw, read back, write.
+#ifdef BRICKFIELD_BAKERS
+#include "app/run_render.h"
+
+#include <algorithm>
+
+#include "app/image_io.h"
+#include "app/layers_io.h"
+#include "app/progress_bar.h"
+#include "app/render_stats.h"
+#include "app/scene_fields.h"
+#include "app/session.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "scene/gltf_import.h"
+
+namespace brickfield {
+
+namespace {
+
+RendererSettings settingsOf(const RenderRequest& request) {
+  RendererSettings settings;
+  settings.exposureEv = request.exposureEv;
+  settings.view = request.view;
+  settings.countersOn = !request.stats.empty();
+  return settings;
+}
+
+SceneFields bakeFields(const RenderRequest& request, const Scene& scene, const Pose& pose) {
+  const auto settings = sdfNodes(scene, request.scene.sdf, request.scene.threads);
+  const std::filesystem::path cache = request.scene.cacheFolder ? *request.scene.cacheFolder : defaultCacheFolder();
+  ProgressBar bar;
+  SceneFieldsResult result = bakeSceneFields(scene, pose, settings, cache, bar.progress());
+  for (const std::string& warning : result.warnings) printWarning(warning);
+  return std::move(result.fields);
+}
+
+RgbImage displayImage(const FrameLayers& layers, const std::vector<std::uint8_t>& picture) {
+  RgbImage image{layers.size, {}};
+  image.pixels.reserve(picture.size() / 3);
+  for (std::size_t i = 0; i + 2 < picture.size(); i += 3)
+    image.pixels.push_back(glm::vec3(picture[i], picture[i + 1], picture[i + 2]) / 255.0f);
+  return image;
+}
+
+// Renders all frames; poses, lights and camera follow the scene's time.
+void drawFrames(const RenderRequest& request, const Scene& scene, const Pose& lastPose, Renderer& renderer) {
+  for (int frame = 0; frame < request.frames; ++frame) {
+    throwIfInterrupted();
+    Pose pose = lastPose;
+    const int before = request.frames - 1 - frame;
+    if (before > 0 && request.scene.pose.seconds) {
+      PoseRequest earlier = request.scene.pose;
+      earlier.seconds = std::max(0.0, *earlier.seconds - before / 60.0);
+      pose = poseScene(scene, earlier);
+    }
+    renderer.setPose(pose);
+    if (frame == 0 || before == 0 || !scene.animations.empty()) renderer.setLighting(makeLighting(pose, request.light));
+    renderer.render(makeView(scene, pose, request.camera));
+  }
+}
+
+} // namespace
+
+void runRender(const RenderRequest& request) {
+  const Scene scene = importGltf(request.scene.path);
+  const Pose pose = poseScene(scene, request.scene.pose);
+  makeView(scene, pose, request.camera); // refuses a bad camera before the bake
+  makeLighting(pose, request.light);     // and bad lights
+  sdfNodes(scene, request.scene.sdf, request.scene.threads);
+  const std::unique_ptr<Context> context = Context::createHeadless(request.device);
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (std::max(request.camera.sizePixels.x, request.camera.sizePixels.y) > static_cast<std::uint32_t>(largest))
+    throw BadInput("--size", "", "larger than this device's pictures, " + std::to_string(largest) + " pixels a side");
+  printWarnings(scene);
+  const SceneFields fields = bakeFields(request, scene, pose);
+
+  Renderer renderer(context->info());
+  renderer.setScene(scene, fields);
+  renderer.setSettings(settingsOf(request));
+  drawFrames(request, scene, pose, renderer);
+  const FrameLayers layers = renderer.readLayers();
+  const FrameStats stats = renderer.stats();
+  if (const std::vector<std::string> errors = context->takeGlErrors(); !errors.empty())
+    throw Failure("OpenGL: " + errors.front());
+  throwIfInterrupted();
+  if (!request.layers.empty()) writeLayers(request.layers, layers);
+  if (!request.stats.empty()) writeFile(request.stats, renderStatsJson(request, context->info(), stats).dump(2) + "\n");
+  // The same radiance, so that an EXR is linear and whole; a PNG is the frame's own picture or view.
+  if (extensionOf(request.output) == ".exr")
+    writeExr(request.output, {layers.size, layers.color});
+  else
+    writePng(request.output, displayImage(layers, renderer.readPicture()));
+}
+
+std::vector<NameAndMeaning> viewNames() {
+  std::vector<NameAndMeaning> names;
+  for (const DebugView& view : debugViews()) names.push_back({view.name, view.meaning});
+  return names;
+}
+
+std::vector<NameAndMeaning> passNames() {
+  std::vector<NameAndMeaning> names;
+  for (const std::string& name : framePassNames()) names.push_back({name, ""});
+  return names;
+}
+
+} // namespace brickfield
+#endif

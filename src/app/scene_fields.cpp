@@ -1,0 +1,55 @@
+// Nodes that share mesh, pose and settings share a field: the content hash of the bake tells.
+#ifdef BRICKFIELD_BAKERS
+#include "app/scene_fields.h"
+
+#include <map>
+
+#include "core/error.h"
+
+namespace brickfield {
+
+namespace {
+bool hasArea(const BakeInput& input) {
+  for (std::size_t p = 0; p < input.primitives.size(); ++p) {
+    const auto& indices = input.primitives[p]->indices;
+    const auto& positions = input.positionsObject[p];
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+      const glm::vec3 a = positions[indices[i]], b = positions[indices[i + 1]], c = positions[indices[i + 2]];
+      if (glm::cross(b - a, c - a) != glm::vec3(0)) return true;
+    }
+  }
+  return false;
+}
+} // namespace
+
+SceneFieldsResult bakeSceneFields(const Scene& scene, const Pose& pose,
+                                  const std::vector<std::optional<BakeSettings>>& settingsOfNode,
+                                  const std::filesystem::path& cacheFolder, const Progress& progress) {
+  SceneFieldsResult result;
+  result.fields.fieldOfNode.assign(scene.nodes.size(), -1);
+  std::vector<bool> done(scene.nodes.size(), false);
+  std::map<Hash128, int> fieldOfHash;
+  for (const PosedInstance& instance : pose.instances) {
+    const std::size_t node = static_cast<std::size_t>(instance.node);
+    if (done[node] || !settingsOfNode[node]) continue;
+    done[node] = true;
+    const BakeInput input = bakeInputOf(scene, instance);
+    if (!hasArea(input)) {
+      result.warnings.push_back(nodeLabel(scene, instance.node) + ": its mesh has no area, so it stays a mesh");
+      continue;
+    }
+    const auto [entry, isNew] =
+        fieldOfHash.try_emplace(bakeHash(input, *settingsOfNode[node]), static_cast<int>(result.fields.fields.size()));
+    if (isNew) {
+      bool wasCached = false;
+      BakeResult baked = bakeCached(input, *settingsOfNode[node], cacheFolder, progress, &wasCached);
+      result.fields.fields.push_back(std::move(baked.field));
+      if (!wasCached) ++result.baked;
+    }
+    result.fields.fieldOfNode[node] = entry->second;
+  }
+  return result;
+}
+
+} // namespace brickfield
+#endif

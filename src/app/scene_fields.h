@@ -1,0 +1,29 @@
+// Bakes the SDF objects of a scene: one field for each different mesh and settings, through the cache.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "bakers/bake.h"
+#include "core/progress.h"
+#include "resident/resident_scene.h"
+#include "scene/pose.h"
+
+namespace brickfield {
+
+struct SceneFieldsResult {
+  SceneFields fields;
+  std::vector<std::string> warnings; ///< a line for each node that stays a mesh, and why
+  std::size_t baked = 0;             ///< fields that were not in the cache
+};
+
+/// settingsOfNode  as sdfNodes() gives them: nothing where a node is drawn as a mesh
+/// cacheFolder     empty: no cache
+/// Deformed meshes are baked as they are posed. A node whose mesh has no area stays a mesh, with a warning.
+/// error           BadInput, Cancelled
+SceneFieldsResult bakeSceneFields(const Scene& scene, const Pose& pose,
+                                  const std::vector<std::optional<BakeSettings>>& settingsOfNode,
+                                  const std::filesystem::path& cacheFolder, const Progress& progress);
+
+} // namespace brickfield
