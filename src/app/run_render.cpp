@@ -94,17 +94,5 @@ void runRender(const RenderRequest& request) {
     writePng(request.output, displayImage(layers, renderer.readPicture()));
 }
 
-std::vector<NameAndMeaning> viewNames() {
-  std::vector<NameAndMeaning> names;
-  for (const DebugView& view : debugViews()) names.push_back({view.name, view.meaning});
-  return names;
-}
-
-std::vector<NameAndMeaning> passNames() {
-  std::vector<NameAndMeaning> names;
-  for (const std::string& name : framePassNames()) names.push_back({name, ""});
-  return names;
-}
-
 } // namespace brickfield
 #endif
