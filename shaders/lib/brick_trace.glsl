@@ -118,12 +118,13 @@ TraceHit traceBricks(SdfLevel level, vec3 originGrid, vec3 directionGrid, vec2 t
     vec4 lower, upper;
     voxelCorners(level, cell, ivec3(voxel), lower, upper);
     float exitT = max(cellExit(origin, oneOverDirection, brickLower + voxel, brickLower + voxel + 1.0), t);
-    float end = min(exitT, tRange.y) - t;
     vec4 cubic = cubicAlongRay(lower, upper, clamp(pointBrick - voxel, 0.0, 1.0), direction);
     if (state == 0.0) state = cubic.x < 0.0 ? -1.0 : 1.0;
-    float u = firstCrossing(cubic, max(end, 0.0), state);
+    // Solved to the voxel's end, not the range's: a hit must not depend on where a mesh ends the ray, to the last bit.
+    float u = firstCrossing(cubic, exitT - t, state);
     if (u >= 0.0) {
       bool entered = state > 0.0;
+      if (t + u > tRange.y) return result;
       if (entered || doubleSided) {
         result.hit = true;
         result.backFace = !entered;

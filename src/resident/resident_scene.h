@@ -8,6 +8,7 @@
 #include "resident/material_table.h"
 #include "resident/mesh_pool.h"
 #include "scene/lighting.h"
+#include "shared/bindings.h"
 #include "shared/frame_params.h"
 
 namespace brickfield {

@@ -1,0 +1,26 @@
+// What every pass is handed when it records: the scene, the targets, the frame's numbers. No pass owns any of it.
+#pragma once
+
+#include "gpu/buffer.h"
+#include "gpu/texture.h"
+#include "passes/frame_targets.h"
+#include "passes/visible_boxes.h"
+#include "resident/resident_scene.h"
+
+namespace brickfield {
+
+/// Order in which objects are drawn. Both give the same picture to the last bit: reversed, later draws win ties.
+enum class DrawOrder : std::uint8_t { MeshesFirst, BoxesFirstAllReversed };
+
+struct FrameContext {
+  const ResidentScene& scene;
+  FrameTargets& targets;
+  const VisibleBoxes& visible;
+  const Buffer& counters;             ///< COUNTERS words
+  const Texture& environment;         ///< prefiltered radiance, a roughness each mip
+  const Texture& environmentBrdf;
+  DrawOrder drawOrder = DrawOrder::MeshesFirst;
+  bool countersOn = false;
+};
+
+} // namespace brickfield

@@ -1,0 +1,54 @@
+// Formats are chosen where the layer is declared; here they become textures.
+#include "passes/frame_targets.h"
+
+#include "shared/bindings.h"
+
+namespace brickfield {
+
+namespace {
+Texture layer(const char* label, GLenum format, glm::uvec2 size) {
+  return Texture::make2D(label, format, static_cast<int>(size.x), static_cast<int>(size.y));
+}
+} // namespace
+
+FrameTargets::FrameTargets(glm::uvec2 sizePixels)
+    : size(sizePixels),
+      depth(layer("depth", GL_DEPTH_COMPONENT32F, size)),
+      depthMesh(layer("depth_mesh", GL_DEPTH_COMPONENT32F, size)),
+      normalWorldOct(layer("normal_world_oct", GL_RGBA16_SNORM, size)),
+      albedo(layer("albedo", GL_SRGB8_ALPHA8, size)),
+      material(layer("material", GL_RGBA8, size)),
+      emission(layer("emission", GL_R11F_G11F_B10F, size)),
+      id(layer("id", GL_R32UI, size)),
+      trace(layer("trace", GL_RG32UI, size)),
+      color(layer("color", GL_RGBA16F, size)),
+      picture(layer("picture", GL_RGBA8, size)),
+      boxOverdraw(layer("box_overdraw", GL_R16F, size)),
+      gbuffer("gbuffer", {{GL_COLOR_ATTACHMENT0, &normalWorldOct},
+                          {GL_COLOR_ATTACHMENT1, &albedo},
+                          {GL_COLOR_ATTACHMENT2, &material},
+                          {GL_COLOR_ATTACHMENT3, &emission},
+                          {GL_COLOR_ATTACHMENT4, &id},
+                          {GL_COLOR_ATTACHMENT5, &trace},
+                          {GL_DEPTH_ATTACHMENT, &depth}}),
+      overdraw("box_overdraw", {{GL_COLOR_ATTACHMENT0, &boxOverdraw}}) {}
+
+void FrameTargets::bindGBuffer() const {
+  depth.bind(shared::kDepthUnit);
+  normalWorldOct.bind(shared::kNormalUnit);
+  albedo.bind(shared::kAlbedoUnit);
+  material.bind(shared::kMaterialUnit);
+  emission.bind(shared::kEmissionUnit);
+  id.bind(shared::kIdUnit);
+  trace.bind(shared::kTraceUnit);
+}
+
+std::size_t FrameTargets::bytes() const {
+  std::size_t sum = 0;
+  for (const Texture* texture : {&depth, &depthMesh, &normalWorldOct, &albedo, &material, &emission, &id, &trace, &color,
+                                 &picture, &boxOverdraw})
+    sum += texture->bytes();
+  return sum;
+}
+
+} // namespace brickfield

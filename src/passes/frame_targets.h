@@ -1,0 +1,34 @@
+// The textures of a frame and the framebuffers over them, for one picture size.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "gpu/framebuffer.h"
+#include "gpu/texture.h"
+
+namespace brickfield {
+
+struct FrameTargets {
+  explicit FrameTargets(glm::uvec2 sizePixels);
+
+  glm::uvec2 size;
+  Texture depth;          ///< D32F, reverse Z
+  Texture depthMesh;      ///< D32F: the meshes' depth alone
+  Texture normalWorldOct; ///< RGBA16_SNORM: shading normal, surface normal
+  Texture albedo;         ///< SRGB8_A8
+  Texture material;       ///< RGBA8: metallic, roughness, occlusion, unlit
+  Texture emission;       ///< R11F_G11F_B10F
+  Texture id;             ///< R32UI: node << 2 | kind
+  Texture trace;          ///< RG32UI: trace steps, number of the brick that was hit + 1
+  Texture color;          ///< RGBA16F: linear radiance
+  Texture picture;        ///< RGBA8: after the tone curve
+  Texture boxOverdraw;    ///< R16F
+  Framebuffer gbuffer;    ///< depth and the six layers, in the order of the fragment outputs
+  Framebuffer overdraw;
+
+  /// Binds the G-buffer's textures to the units of lib/gbuffer.glsl.
+  void bindGBuffer() const;
+  std::size_t bytes() const;
+};
+
+} // namespace brickfield

@@ -1,0 +1,27 @@
+// A compute pass over the picture: fragment shaders have a fraction of some GPUs' units (NUMBERS of the design).
+#include "passes/light/lighting_pass.h"
+
+namespace brickfield {
+
+LightingPass::LightingPass(ShaderLibrary& shaders)
+    : program_(shaders.load({"lighting", {{GL_COMPUTE_SHADER, "passes/lighting.comp.glsl"}}, {}, {}})) {}
+
+PassDeclaration LightingPass::declare() {
+  return {"lighting",
+          {{Resource::FrameParams, Access::Uniform},
+           {Resource::Depth, Access::Sampled},
+           {Resource::GBuffer, Access::Sampled},
+           {Resource::Environment, Access::Sampled}},
+          {{Resource::Color, Access::ImageStore}}};
+}
+
+void LightingPass::record(const FrameContext& context) {
+  context.targets.bindGBuffer();
+  context.environment.bind(shared::kEnvironmentUnit);
+  context.environmentBrdf.bind(shared::kEnvironmentBrdfUnit);
+  context.scene.bindLights();
+  context.targets.color.bindImage(0, 0, GL_WRITE_ONLY);
+  program_->dispatchOver({context.targets.color.width(), context.targets.color.height(), 1});
+}
+
+} // namespace brickfield

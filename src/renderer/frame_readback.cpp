@@ -1,0 +1,68 @@
+// Decodes what the G-buffer packs.
+#include "renderer/frame_readback.h"
+
+#include "shared/frame_params.h"
+
+namespace brickfield {
+
+namespace {
+
+// Ray parameter of a stored depth, as rayParameterOfDepth of shaders/lib/frame.glsl.
+float rayParameterOfDepth(const View& view, const PrimaryRay& ray, float depth) {
+  const glm::dmat4 clipFromWorld(view.clipFromWorld);
+  const glm::dvec4 origin = clipFromWorld * glm::dvec4(glm::dvec3(ray.originWorld), 1.0);
+  const glm::dvec4 direction = clipFromWorld * glm::dvec4(glm::dvec3(ray.directionWorld), 0.0);
+  const double slope = direction.z - double{depth} * direction.w;
+  return static_cast<float>((double{depth} * origin.w - origin.z) / slope);
+}
+
+} // namespace
+
+FrameLayers readFrameLayers(const FrameTargets& targets, const View& view) {
+  const std::size_t width = targets.size.x, height = targets.size.y;
+  const std::vector<float> color = targets.color.readFloats(), normals = targets.normalWorldOct.readFloats(),
+                           depth = targets.depth.readFloats();
+  const std::vector<std::uint8_t> albedo = targets.albedo.read<std::uint8_t>();
+  const std::vector<std::uint32_t> ids = targets.id.read<std::uint32_t>(), trace = targets.trace.read<std::uint32_t>();
+
+  FrameLayers layers;
+  layers.size = targets.size;
+  const std::size_t pixels = width * height;
+  layers.color.resize(pixels);
+  layers.depth.assign(pixels, std::numeric_limits<float>::infinity());
+  layers.normal.assign(pixels, glm::vec3(0));
+  layers.normalSurface.assign(pixels, glm::vec3(0));
+  layers.albedo.assign(pixels, glm::vec3(0));
+  layers.id.assign(pixels, -1);
+  layers.kind.assign(pixels, SurfaceKind::None);
+  layers.steps.assign(pixels, 0.0f);
+  for (std::size_t y = 0; y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t source = (height - 1 - y) * width + x, p = y * width + x;
+      layers.color[p] = {color[4 * source], color[4 * source + 1], color[4 * source + 2]};
+      const std::uint32_t kind = ids[source] & 3u;
+      if (kind == shared::KIND_NONE) continue;
+      const PrimaryRay ray = primaryRay(view, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+      layers.depth[p] = rayParameterOfDepth(view, ray, depth[source]);
+      layers.normal[p] = directionFromOctahedral({normals[4 * source], normals[4 * source + 1]});
+      layers.normalSurface[p] = directionFromOctahedral({normals[4 * source + 2], normals[4 * source + 3]});
+      layers.albedo[p] = linearFromSrgb(glm::vec3(albedo[4 * source], albedo[4 * source + 1], albedo[4 * source + 2]) / 255.0f);
+      layers.id[p] = static_cast<std::int32_t>(ids[source] >> 2);
+      layers.kind[p] = kind == shared::KIND_MESH ? SurfaceKind::Mesh : SurfaceKind::Sdf;
+      layers.steps[p] = static_cast<float>(trace[2 * source]);
+    }
+  return layers;
+}
+
+std::vector<std::uint8_t> readFramePicture(const FrameTargets& targets) {
+  const std::size_t width = targets.size.x, height = targets.size.y;
+  const std::vector<std::uint8_t> rgba = targets.picture.read<std::uint8_t>();
+  std::vector<std::uint8_t> rgb(width * height * 3);
+  for (std::size_t y = 0; y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x)
+      for (std::size_t c = 0; c < 3; ++c)
+        rgb[(y * width + x) * 3 + c] = rgba[((height - 1 - y) * width + x) * 4 + c];
+  return rgb;
+}
+
+} // namespace brickfield

@@ -1,0 +1,250 @@
+// Owns the passes, fills the frame's parameters, runs the plan.
+#include "renderer/renderer.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "gpu/shader_library.h"
+#include "passes/debug/debug_view_pass.h"
+#include "passes/geometry/deform_pass.h"
+#include "passes/geometry/mesh_pass.h"
+#include "passes/geometry/sdf_box_pass.h"
+#include "passes/geometry/sdf_cull_pass.h"
+#include "passes/light/environment_pass.h"
+#include "passes/light/lighting_pass.h"
+#include "passes/post/tone_pass.h"
+#include "renderer/frame_plan.h"
+#include "renderer/frame_readback.h"
+#include "shared/bindings.h"
+
+namespace brickfield {
+
+struct Renderer::Parts {
+  explicit Parts(const ContextInfo& info);
+
+  ShaderLibrary shaders;
+  FrameTimers timers;
+  DeformPass deform;
+  ClearPass clear;
+  MeshPass mesh;
+  DepthCopyPass depthCopy;
+  SdfCullPass sdfCull;
+  SdfBoxPass sdfBox;
+  BoxOverdrawPass boxOverdraw;
+  EnvironmentPass environment;
+  LightingPass lighting;
+  TonePass tone;
+  DebugViewPass debugView;
+
+  RendererSettings settings;
+  const Scene* source = nullptr;
+  std::unique_ptr<ResidentScene> scene;
+  std::unique_ptr<FrameTargets> targets;
+  VisibleBoxes visible;
+  Buffer frameParams, counters;
+  std::array<glm::vec3, 9> irradiance{};
+  Box boundsWorld;
+  View view;
+  bool isPosed = false, isLit = false;
+
+  std::vector<PlannedPass> plan(const FrameContext& context);
+  shared::FrameParams fillParams() const;
+  std::uint32_t viewNumber() const;
+};
+
+namespace {
+
+constexpr float kOverdrawRange = 16, kStepsRange = 64; // what settings.cpp says of the views
+
+std::vector<ResourceUse> providedByHost() {
+  return {{Resource::FrameParams, Access::Upload},
+          {Resource::MeshVertices, Access::Upload},
+          {Resource::MeshDraws, Access::Upload},
+          {Resource::SdfScene, Access::Upload},
+          {Resource::Environment, Access::ImageStore},
+          {Resource::Counters, Access::Upload}};
+}
+
+} // namespace
+
+Renderer::Parts::Parts(const ContextInfo& info)
+    : shaders(findShaderRoot()),
+      timers(info),
+      deform(shaders),
+      mesh(shaders),
+      sdfCull(shaders),
+      sdfBox(shaders),
+      boxOverdraw(shaders),
+      environment(shaders),
+      lighting(shaders),
+      tone(shaders),
+      debugView(shaders),
+      frameParams("frame_params", sizeof(shared::FrameParams)),
+      counters("counters", shared::COUNTERS * sizeof(std::uint32_t)) {}
+
+std::uint32_t Renderer::Parts::viewNumber() const {
+  for (const DebugView& candidate : debugViews())
+    if (candidate.name == settings.view) return candidate.number;
+  return shared::DEBUG_VIEW_NONE;
+}
+
+// The frame on one screen.
+std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
+  std::vector<PlannedPass> passes;
+  const auto add = [&](auto& pass) {
+    passes.push_back({std::decay_t<decltype(pass)>::declare(), [&pass, &context] { pass.record(context); }, 0});
+  };
+  const bool boxesFirst = settings.drawOrder == DrawOrder::BoxesFirstAllReversed;
+  add(deform);  // moved vertices, before anything draws them
+  add(clear);
+  add(sdfCull); // which boxes, and how
+  if (boxesFirst) add(sdfBox);
+  add(mesh);
+  if (!boxesFirst) {
+    add(depthCopy); // ends the rays of SDF objects behind meshes
+    add(sdfBox);
+  }
+  add(lighting); // also under a debug view: layers are whole whatever the picture shows
+  if (viewNumber() == shared::DEBUG_VIEW_NONE) {
+    add(tone);
+  } else {
+    add(boxOverdraw);
+    add(debugView);
+  }
+  planFrame(passes, providedByHost());
+  return passes;
+}
+
+shared::FrameParams Renderer::Parts::fillParams() const {
+  shared::FrameParams params{};
+  params.clipFromWorld = view.clipFromWorld;
+  params.worldFromView = view.worldFromView;
+  params.eyeWorld = glm::vec4(view.eyeWorld, view.nearDistance);
+  params.projection = {view.clipFromView[0][0], view.clipFromView[1][1], view.orthographic ? 1.0f : 0.0f,
+                       std::exp2(settings.exposureEv)};
+  params.size = {view.sizePixels, scene->lightCount(), viewNumber()};
+  params.counts = {scene->sdfInstanceCount(), static_cast<std::uint32_t>(settings.forcedLevel + 1),
+                   settings.maxTraceSteps, static_cast<std::uint32_t>(environment.radiance().levels())};
+  if (viewNumber() == shared::DEBUG_VIEW_STEPS) params.debugRange = {0, kStepsRange, 0, 0};
+  if (viewNumber() == shared::DEBUG_VIEW_OVERDRAW) params.debugRange = {0, kOverdrawRange, 0, 0};
+  if (viewNumber() == shared::DEBUG_VIEW_DEPTH && !boundsWorld.isEmpty()) {
+    const float radius = 0.5f * glm::length(boundsWorld.extent());
+    const float toCenter = glm::distance(view.eyeWorld, boundsWorld.center());
+    params.debugRange = {std::max(0.0f, toCenter - radius), toCenter + radius, 0, 0};
+  }
+  for (std::size_t i = 0; i < irradiance.size(); ++i) params.irradiance[i] = glm::vec4(irradiance[i], 0);
+  return params;
+}
+
+Renderer::Renderer(const ContextInfo& info) : parts_(std::make_unique<Parts>(info)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+
+void Renderer::setScene(const Scene& scene, const SceneFields& fields) {
+  parts_->scene.reset();
+  parts_->scene = std::make_unique<ResidentScene>(scene, fields);
+  parts_->source = &scene;
+  parts_->isPosed = parts_->isLit = false;
+}
+
+void Renderer::setPose(const Pose& pose) {
+  if (!parts_->scene) throw Failure("renderer: a pose was set before a scene");
+  parts_->scene->setPose(*parts_->source, pose);
+  parts_->visible.fit(std::max(1u, parts_->scene->sdfInstanceCount()));
+  parts_->boundsWorld = pose.boundsWorld;
+  parts_->isPosed = true;
+}
+
+void Renderer::setLighting(const Lighting& lighting) {
+  if (!parts_->scene) throw Failure("renderer: lighting was set before a scene");
+  parts_->scene->setLighting(lighting);
+  parts_->environment.prepare(lighting.environment);
+  parts_->irradiance = irradianceHarmonics(lighting.environment);
+  parts_->isLit = true;
+}
+
+void Renderer::setSettings(const RendererSettings& settings) {
+  if (!settings.view.empty() && std::none_of(debugViews().begin(), debugViews().end(),
+                                             [&](const DebugView& view) { return view.name == settings.view; }))
+    throw BadInput("view", settings.view, "no such view");
+  parts_->settings = settings;
+}
+
+void Renderer::render(const View& view) {
+  Parts& parts = *parts_;
+  if (!parts.scene || !parts.isPosed || !parts.isLit) throw Failure("renderer: scene, pose and lighting must be set");
+  if (!parts.targets || parts.targets->size != view.sizePixels) {
+    parts.targets.reset();
+    parts.targets = std::make_unique<FrameTargets>(view.sizePixels);
+  }
+  parts.view = view;
+  parts.frameParams.uploadValue(parts.fillParams());
+  parts.frameParams.bindUniform(shared::kFrameUniformBinding);
+  parts.counters.clear(0);
+
+  const FrameContext context{*parts.scene,
+                             *parts.targets,
+                             parts.visible,
+                             parts.counters,
+                             parts.environment.radiance(),
+                             parts.environment.brdf(),
+                             parts.settings.drawOrder,
+                             parts.settings.countersOn};
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glDisable(GL_BLEND);
+  glEnable(GL_FRAMEBUFFER_SRGB); // albedo is stored as sRGB; the other targets are linear and unaffected
+  parts.timers.beginFrame();
+  for (const PlannedPass& pass : parts.plan(context)) {
+    const DebugGroup group(pass.declaration.name);
+    const auto timer = parts.timers.scope(pass.declaration.name);
+    if (pass.barriersBefore) glMemoryBarrier(pass.barriersBefore);
+    pass.record();
+  }
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+FrameStats Renderer::stats() {
+  Parts& parts = *parts_;
+  FrameStats stats;
+  stats.passes = parts.timers.results();
+  if (!parts.scene || !parts.targets) return stats;
+  const std::vector<std::uint32_t> counts = parts.counters.read<std::uint32_t>();
+  stats.counters = {counts[shared::COUNTER_FRAGMENTS],   counts[shared::COUNTER_HITS],
+                    counts[shared::COUNTER_STEPS],       counts[shared::COUNTER_BRICK_READS],
+                    counts[shared::COUNTER_PROMISE_BROKEN], counts[shared::COUNTER_OUT_OF_STEPS]};
+  stats.sdfInstances = parts.scene->sdfInstanceCount();
+  if (stats.sdfInstances > 0) {
+    const std::vector<std::uint32_t> commands = parts.visible.commands().read<std::uint32_t>();
+    stats.sdfInside = commands[5];
+    stats.sdfVisible = commands[1] + commands[5];
+  }
+  stats.meshDraws = parts.scene->meshDrawCount();
+  stats.bricks = parts.scene->atlas().brickCount();
+  stats.sceneBytes = parts.scene->bytes();
+  stats.targetBytes = parts.targets->bytes();
+  return stats;
+}
+
+std::vector<std::string> framePassNames() {
+  std::vector<std::string> names;
+  for (const PassDeclaration& pass :
+       {DeformPass::declare(), ClearPass::declare(), SdfCullPass::declare(), MeshPass::declare(), DepthCopyPass::declare(),
+        SdfBoxPass::declare(), LightingPass::declare(), TonePass::declare(), BoxOverdrawPass::declare(),
+        DebugViewPass::declare()})
+    names.push_back(pass.name);
+  return names;
+}
+
+FrameLayers Renderer::readLayers() const {
+  if (!parts_->targets) throw Failure("renderer: no frame was rendered");
+  return readFrameLayers(*parts_->targets, parts_->view);
+}
+
+std::vector<std::uint8_t> Renderer::readPicture() const {
+  if (!parts_->targets) throw Failure("renderer: no frame was rendered");
+  return readFramePicture(*parts_->targets);
+}
+
+std::vector<std::string> Renderer::reloadShaders() { return parts_->shaders.reloadChanged(); }
+
+} // namespace brickfield

@@ -1,0 +1,77 @@
+// The renderer's public face: a scene and a view in, a picture and its layers out.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu/context.h"
+#include "gpu/timer.h"
+#include "renderer/settings.h"
+#include "resident/resident_scene.h"
+#include "scene/frame_layers.h"
+#include "scene/lighting.h"
+#include "scene/view.h"
+
+namespace brickfield {
+
+/// Sums over one frame; zero where counters are off.
+struct FrameCounters {
+  std::uint32_t fragments = 0;      ///< box fragments shaded
+  std::uint32_t hits = 0;
+  std::uint32_t steps = 0;
+  std::uint32_t brickReads = 0;
+  std::uint32_t promiseBroken = 0;  ///< depths in front of the box face: must be 0
+  std::uint32_t outOfSteps = 0;     ///< rays that ran out of steps
+};
+
+struct FrameStats {
+  std::vector<PassTime> passes;
+  FrameCounters counters;
+  std::uint32_t sdfInstances = 0;
+  std::uint32_t sdfVisible = 0;     ///< boxes drawn
+  std::uint32_t sdfInside = 0;      ///< of them, with the near plane through the box
+  std::uint32_t meshDraws = 0;
+  std::uint32_t bricks = 0;
+  std::size_t sceneBytes = 0;
+  std::size_t targetBytes = 0;
+};
+
+/// Draws one scene on the context that is current when it is made; every call needs that context current. Several may
+/// live in one process.
+class Renderer {
+public:
+  /// error BadInput: no shader folder; Failure: a shader does not compile
+  explicit Renderer(const ContextInfo& info);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+
+  /// Uploads; frees what was there before. The scene must outlive the next setScene.
+  void setScene(const Scene& scene, const SceneFields& fields);
+  void setPose(const Pose& pose);
+  void setLighting(const Lighting& lighting);
+  void setSettings(const RendererSettings& settings);
+
+  /// Draws into own targets of the view's size.
+  /// error Failure: no scene, pose or lighting was set; picture larger than the device allows
+  void render(const View& view);
+
+  /// Reads the frame back; rows from the top.
+  FrameLayers readLayers() const;
+  /// The picture after the tone curve, or the debug view: RGB8, rows from the top.
+  std::vector<std::uint8_t> readPicture() const;
+  /// Times, counts and memory of the last frame.
+  FrameStats stats();
+
+  /// Compiles changed shader files anew; a line for each program that changed.
+  std::vector<std::string> reloadShaders();
+
+private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Names of the passes of a frame in their order.
+std::vector<std::string> framePassNames();
+
+} // namespace brickfield
