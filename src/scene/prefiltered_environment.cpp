@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <span>
 
 #include "scene/brdf.h"
 #include "scene/environment.h"
@@ -45,7 +46,8 @@ float lobeEnd(float alpha) {
   return std::max(1.0f - 2.0f * sineSquared, 0.0f); // cos of the doubled angle; never below the horizon
 }
 
-glm::vec3 convolveAt(const std::vector<Texel>& texels, glm::vec3 axis, float alpha, float leastCosine) {
+/// texels    of the rows that the lobe can reach
+glm::vec3 convolveAt(std::span<const Texel> texels, glm::vec3 axis, float alpha, float leastCosine) {
   glm::vec3 sum(0.0f);
   float weights = 0.0f;
   for (const Texel& texel : texels) {
@@ -62,16 +64,24 @@ glm::vec3 convolveAt(const std::vector<Texel>& texels, glm::vec3 axis, float alp
 }
 
 Environment convolve(const Environment& environment, const LevelPlan& plan, float roughness) {
-  const std::vector<Texel> texels = texelsOf(shrinkEnvironment(environment, plan.source));
+  const Environment source = shrinkEnvironment(environment, plan.source);
+  const std::vector<Texel> texels = texelsOf(source);
   const float alpha = roughness * roughness, leastCosine = lobeEnd(alpha);
+  const double reach = std::acos(double{leastCosine}) / std::numbers::pi; // of the lobe, in heights of the image
   Environment level;
   level.size = glm::min(environment.size, plan.target);
-  for (std::uint32_t row = 0; row < level.size.y; ++row)
+  for (std::uint32_t row = 0; row < level.size.y; ++row) {
+    const double v = (row + 0.5) / level.size.y;
+    const auto rowAt = [&](double place) {
+      return static_cast<std::size_t>(std::clamp(place, 0.0, 1.0) * source.size.y);
+    };
+    const std::size_t firstRow = rowAt(v - reach), endRow = std::min<std::size_t>(rowAt(v + reach) + 1, source.size.y);
+    const auto rows = std::span(texels).subspan(firstRow * source.size.x, (endRow - firstRow) * source.size.x);
     for (std::uint32_t column = 0; column < level.size.x; ++column) {
-      const glm::dvec2 uv((column + 0.5) / level.size.x, (row + 0.5) / level.size.y);
-      const glm::vec3 axis(environmentDirection(uv));
-      level.radiance.push_back(convolveAt(texels, axis, alpha, leastCosine));
+      const glm::vec3 axis(environmentDirection({(column + 0.5) / level.size.x, v}));
+      level.radiance.push_back(convolveAt(rows, axis, alpha, leastCosine));
     }
+  }
   return level;
 }
 
