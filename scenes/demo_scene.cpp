@@ -31,7 +31,7 @@ ChannelSpec spinChannel(int node, glm::quat rest, glm::vec3 axis, float secondsP
 void addCamerasAndLights(StillLife& scene) {
   addCamera(scene, "main", {2.3f, 2.75f, 8.7f}, {0.02f, 0.98f, 0.0f}, kFovDegrees);
   addCamera(scene, "close", {1.7f, 1.65f, 4.4f}, {-0.1f, 0.72f, 0.1f}, kFovDegrees);
-  addCamera(scene, "lattice", {-0.4f, 2.3f, 2.6f}, {-1.95f, 1.2f, -0.9f}, kFovDegrees);
+  addCamera(scene, "ball", {-0.4f, 2.3f, 2.6f}, {-1.95f, 1.2f, -0.9f}, kFovDegrees);
 
   // A sun of 3 lux leaves a white wall a little under 1 at exposure 0 (π lux gives 1.0).
   glm::vec3 sunFrom(-4.2f, 6.5f, 5.2f);

@@ -121,7 +121,6 @@ private:
         p += length > 0.25f * spacing_ ? move * (0.25f * spacing_ / length) : move;
       }
       shape_.normals.push_back(glm::normalize(gradient(p)));
-      shape_.uvs.push_back({0.5f + std::atan2(p.x, p.z) / glm::two_pi<float>(), 0.5f - 0.5f * p.y / halfSide_});
     }
   }
 
@@ -146,15 +145,40 @@ Shape implicitShape(float halfSide, int cells, const std::function<float(glm::ve
   return DualMesher(halfSide, cells, field).mesh();
 }
 
-Shape gyroidBallShape(float radius, float waves, float wall, int cells) {
-  const float frequency = glm::pi<float>() * waves / radius;
+Shape porousBallShape(float radius, float thickness, int cells) {
+  // Axes through the corners (six) and the faces (ten) of an icosahedron; the golden ratio places both. Corner axes lie
+  // 37.4° from the nearest face axes, face axes 41.8° from each other: holes of 18.5° and 10.5° leave bars of 8° or
+  // more.
+  constexpr float kGolden = 1.6180340f;
+  struct Hole {
+    glm::vec3 axis;
+    float slope; ///< tangent of the angle
+  };
+  std::vector<Hole> holes;
+  const float wide = std::tan(glm::radians(18.5f));
+  const float narrow = std::tan(glm::radians(10.5f));
+  for (int axis = 0; axis < 3; ++axis) {
+    for (float side : {-1.0f, 1.0f}) {
+      glm::vec3 corner(0), face(0);
+      corner[axis] = 1, corner[(axis + 1) % 3] = side * kGolden;
+      face[(axis + 1) % 3] = 1 / kGolden, face[axis] = side * kGolden;
+      holes.push_back({glm::normalize(corner), wide});
+      holes.push_back({glm::normalize(face), narrow});
+    }
+  }
+  for (int i = 0; i < 4; ++i) holes.push_back({glm::normalize(glm::vec3(1, i & 1 ? 1 : -1, i & 2 ? 1 : -1)), narrow});
+
+  const float middleRadius = radius - 0.5f * thickness;
   auto field = [=](glm::vec3 p) {
-    glm::vec3 s = glm::sin(frequency * p);
-    glm::vec3 c = glm::cos(frequency * p);
-    float lattice = s.x * c.y + s.y * c.z + s.z * c.x;
-    // The gyroid's slope at its zero set is between 1.2 and 1.7 times the frequency.
-    float sheet = std::abs(lattice) / (1.45f * frequency) - wall;
-    return smoothMax(glm::length(p) - radius, sheet, 0.6f * wall);
+    float shell = std::abs(glm::length(p) - middleRadius) - 0.5f * thickness;
+    float inHole = -radius;
+    for (const Hole& hole : holes) {
+      float along = glm::dot(p, hole.axis);
+      float across = glm::length(p - along * hole.axis);
+      // Distance within the cone, about: exact would need the cosine, which is near 1.
+      inHole = std::max(inHole, hole.slope * std::abs(along) - across);
+    }
+    return smoothMax(shell, inHole, 0.6f * thickness);
   };
   return implicitShape(1.06f * radius, cells, field);
 }

@@ -12,6 +12,8 @@ namespace {
 constexpr float kTau = glm::two_pi<float>();
 /// Faces that meet at less than this angle are shaded as one surface: above the steps of our rounded edges.
 constexpr float kCreaseDegrees = 40.0f;
+/// Of tubes only the caps are set off, at about 90°; their ribs are not.
+constexpr float kTubeCreaseDegrees = 75.0f;
 
 float sign(float x) { return x < 0 ? -1.0f : 1.0f; }
 
@@ -106,7 +108,7 @@ Shape tubeShape(const TubeSettings& settings, const std::function<glm::vec3(floa
     capTube(shape, settings.sides, lastRow, curve(1), false);
   }
   orientOutward(shape);
-  smoothNormals(shape, kCreaseDegrees);
+  smoothNormals(shape, kTubeCreaseDegrees);
   return shape;
 }
 

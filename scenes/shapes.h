@@ -1,6 +1,6 @@
 // Generated shapes: bodies of revolution, swept tubes, boxes, gears, and a mesher for implicit surfaces. All have
-// normals and texture coordinates; closed ones are closed to the last bit (equal positions at every seam). Metres, +Y
-// up.
+// normals and, but for the implicit ones, texture coordinates; closed ones are closed to the last bit (equal positions
+// at every seam). Metres, +Y up.
 #pragma once
 
 #include <functional>
@@ -60,14 +60,15 @@ struct GearSettings {
 Shape gearShape(const GearSettings& settings);
 
 /// Surface of {field < 0} by a dual method (one vertex a crossed cell, one quadrilateral a crossed edge, as surface
-/// nets: Gibson 1998), vertices moved onto the surface by Newton steps, normals from the gradient.
+/// nets: Gibson 1998), vertices moved onto the surface by Newton steps, normals from the gradient. No texture
+/// coordinates.
 ///
 /// field    continuous, positive on the border of the cube [-halfSide, halfSide]^3, its slope about 1
 /// cells    along each side of the cube
 Shape implicitShape(float halfSide, int cells, const std::function<float(glm::vec3)>& field);
 
-/// A ball cut from a gyroid lattice (Schoen 1970).
-/// waves  periods of the lattice along the diameter; wall half the thickness of its sheet in metres
-Shape gyroidBallShape(float radius, float waves, float wall, int cells);
+/// A hollow ball with 32 round holes, on the corners and faces of an icosahedron, rims rounded.
+/// thickness of the shell in metres, some cells at least
+Shape porousBallShape(float radius, float thickness, int cells);
 
 } // namespace brickfield::scenes

@@ -1,4 +1,5 @@
-// The objects that are drawn as SDFs: teapots, knot, lattice, pebble, gear, cup, vase; with the meshes that cut them.
+// The objects that are drawn as SDFs: teapots, knot, porous ball, pebble, gear, cup, vase; with the meshes that cut
+// them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +34,7 @@ void addKnot(StillLife& scene) {
   scene.channels.push_back(spinChannel(parent, pivot.rotation, {0, 1, 0}, 8.0f));
 }
 
-void addLattice(StillLife& scene) {
+void addPorousBall(StillLife& scene) {
   const glm::vec3 foot(-2.0f, 0, -0.95f);
   Shape block = roundedBoxShape({0.58f, 0.41f, 0.58f}, 0.045f, 5);
   scene.glb.addNode({.name = "Block podium",
@@ -43,24 +44,23 @@ void addLattice(StillLife& scene) {
   scene.contacts.push_back({{foot.x, foot.z}, 0.64f});
 
   constexpr float kRadius = 0.6f;
-  Shape lattice = gyroidBallShape(kRadius, 2.7f, 0.042f, 54);
-  // Deep inside less light arrives: the colour itself says so.
-  paint(lattice, [](glm::vec3 p) {
-    float depth = std::clamp(glm::length(p) / kRadius, 0.0f, 1.0f);
-    return glm::mix(glm::vec3(0.30f, 0.02f, 0.035f), glm::vec3(0.83f, 0.13f, 0.10f), std::pow(depth, 2.5f));
+  Shape ball = porousBallShape(kRadius, 0.08f, 72);
+  // Coral outside, pale gold inside.
+  paint(ball, [](glm::vec3 p) {
+    float outside = glm::smoothstep(kRadius - 0.07f, kRadius - 0.03f, glm::length(p));
+    return glm::mix(glm::vec3(0.90f, 0.50f, 0.16f), glm::vec3(0.80f, 0.10f, 0.075f), outside);
   });
   MaterialSpec coral{.name = "Coral porcelain", .roughness = 0.38f};
-  int mesh = scene.mesh("Gyroid", lattice, scene.glb.addMaterial(coral));
+  int mesh = scene.mesh("Porous ball", ball, scene.glb.addMaterial(coral));
   glm::vec3 center = foot + glm::vec3(0, 0.82f + kRadius, 0);
-  int gyroid = scene.glb.addNode({.name = "Gyroid",
-                                  .translation = center,
-                                  .rotation = rotationAbout({1, 1, 0}, 25),
-                                  .mesh = mesh,
-                                  .extras = sdfExtras(192)});
-  static_cast<void>(gyroid);
+  scene.glb.addNode({.name = "Porous ball",
+                     .translation = center,
+                     .rotation = rotationAbout({1, 1, 0}, 25),
+                     .mesh = mesh,
+                     .extras = sdfExtras(192)});
 
-  // The ring runs half inside, half outside the lattice's hull, and turns in it.
-  int ringMesh = scene.mesh("Ring", torusShape(0.6f, 0.07f, 128, 32), scene.materials.copper);
+  // The ring runs half inside, half outside the ball's hull, and turns in it.
+  int ringMesh = scene.mesh("Ring", torusShape(0.6f, 0.07f, 112, 28), scene.materials.copper);
   NodeSpec ring{.name = "Ring", .translation = center, .rotation = rotationAbout({1, 0, 0.45f}, 38), .mesh = ringMesh};
   int node = scene.glb.addNode(ring);
   scene.channels.push_back(spinChannel(node, ring.rotation, {1, 0, 0}, 6.0f));
@@ -79,10 +79,10 @@ void addPebble(StillLife& scene) {
                      .extras = sdfExtras(96)});
   scene.contacts.push_back({{foot.x, foot.z}, 0.44f});
   MaterialSpec ivory{.name = "Ivory", .baseColor = {0.86f, 0.80f, 0.68f}, .roughness = 0.35f};
-  int hoop = scene.mesh("Hoop", torusShape(0.4f, 0.06f, 128, 32), scene.glb.addMaterial(ivory));
+  int hoop = scene.mesh("Hoop", torusShape(0.5f, 0.055f, 112, 28), scene.glb.addMaterial(ivory));
   scene.glb.addNode({.name = "Hoop",
-                     .translation = foot + glm::vec3(0.17f, 0.43f, 0.1f),
-                     .rotation = rotationAbout({0, 1, 0}, 70) * rotationAbout({1, 0, 0.4f}, 62),
+                     .translation = foot + glm::vec3(0, 0.36f, 0),
+                     .rotation = rotationAbout({0, 1, 0}, 32) * rotationAbout({0.55f, 0, 1}, -34),
                      .mesh = hoop});
 }
 
@@ -162,7 +162,7 @@ void addTeapots(StillLife& scene) {
 
 void addSculptures(StillLife& scene) {
   addKnot(scene);
-  addLattice(scene);
+  addPorousBall(scene);
   addPebble(scene);
   addGear(scene);
   addBlob(scene);

@@ -71,7 +71,7 @@ void addLamp(StillLife& scene, glm::vec3 foot) {
   // Under the bulb, not in it: its own glass must not hide the light.
   NodeSpec light{.name = "Lamp light", .translation = {0, 0.56f, 0.12f}};
   light.light = scene.glb.addLight(
-      {{"name", "Lamp light"}, {"type", "point"}, {"color", {1.0f, 0.62f, 0.3f}}, {"intensity", 1.6f}});
+      {{"name", "Lamp light"}, {"type", "point"}, {"color", {1.0f, 0.62f, 0.3f}}, {"intensity", 3.5f}});
   scene.glb.addNode(light, parent);
 }
 
@@ -183,7 +183,7 @@ void addFlowers(StillLife& scene) {
                                            {{0.32f, 0.38f}, 0.26f},
                                            {{0, 0.04f}}}};
   MaterialSpec ink{.name = "Ink glaze", .baseColor = {0.035f, 0.075f, 0.17f}, .roughness = 0.22f};
-  Shape shape = revolvedShape(roundedProfile(vase, 14, false), false, 96);
+  Shape shape = revolvedShape(roundedProfile(vase, 9, false), false, 80);
   scene.glb.addNode({.name = "Vase",
                      .translation = foot,
                      .mesh = scene.mesh("Vase", shape, scene.glb.addMaterial(ink)),

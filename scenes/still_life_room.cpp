@@ -16,7 +16,10 @@ constexpr glm::vec2 kFloorMinXz{-8.0f, -5.5f};
 constexpr glm::vec2 kFloorMaxXz{8.0f, 7.5f};
 constexpr float kWallRadius = 6.4f;
 constexpr glm::vec2 kWallCenterXz{0.0f, 2.4f};
-constexpr float kWallHeight = 6.0f;
+constexpr float kWallHeight = 4.6f;
+// Wide enough for the main camera at 16:9; more on the left would put the flowers into the wall's shadow.
+constexpr float kWallFromDegrees = -80.0f;
+constexpr float kWallToDegrees = 72.0f;
 constexpr float kPlankTileMetres = 2.4f;
 
 /// Share of the upper hemisphere that is left open at a point of the floor, roughly: each contact hides what a disk of
@@ -42,7 +45,7 @@ Shape floorShape(const std::vector<Contact>& contacts) {
     float s = 2 * t - 1;
     return 0.5f + 0.5f * s * (0.45f + 0.55f * s * s);
   };
-  Shape shape = gridShape(180, 150, {}, [&](float u, float v) {
+  Shape shape = gridShape(160, 132, {}, [&](float u, float v) {
     glm::vec2 xz = kFloorMinXz + glm::vec2(denserInside(u), denserInside(1 - v)) * extent;
     return glm::vec3(xz.x, 0, xz.y);
   });
@@ -55,7 +58,7 @@ Shape floorShape(const std::vector<Contact>& contacts) {
   }
   paint(shape, [&](glm::vec3 p) {
     float open = floorOpenness(contacts, {p.x, p.z});
-    return glm::mix(glm::vec3(0.16f, 0.12f, 0.11f), glm::vec3(1.0f), open);
+    return glm::mix(glm::vec3(0.40f, 0.34f, 0.32f), glm::vec3(1.0f), open);
   });
   return shape;
 }
@@ -81,8 +84,8 @@ void addFloor(StillLife& scene) {
 void addWall(StillLife& scene) {
   MaterialSpec plaster{.name = "Plaster", .baseColor = {0.075f, 0.18f, 0.195f}, .roughness = 0.85f};
   plaster.normalTexture = {scene.glb.addTexture("Plaster normal", plasterNormal(512))};
-  Shape shape = gridShape(96, 24, {}, [](float u, float v) {
-    float angle = glm::radians(glm::mix(-112.0f, 112.0f, u));
+  Shape shape = gridShape(72, 20, {}, [](float u, float v) {
+    float angle = glm::radians(glm::mix(kWallFromDegrees, kWallToDegrees, u));
     return glm::vec3(kWallCenterXz.x + kWallRadius * std::sin(angle), kWallHeight * v,
                      kWallCenterXz.y - kWallRadius * std::cos(angle));
   });
@@ -90,10 +93,10 @@ void addWall(StillLife& scene) {
   paint(shape, [](glm::vec3 p) {
     // Darker towards the floor and the ceiling: where a real wall would be hidden from lamps and window.
     float low = 1.0f - 0.45f * std::exp(-p.y / 0.35f);
-    float high = glm::mix(1.0f, 0.55f, glm::smoothstep(1.5f, kWallHeight, p.y));
+    float high = glm::mix(1.0f, 0.55f, glm::smoothstep(1.4f, 5.5f, p.y));
     return glm::vec3(low * high);
   });
-  for (glm::vec2& uv : shape.uvs) uv *= glm::vec2(10, 2.4f);
+  for (glm::vec2& uv : shape.uvs) uv *= glm::vec2(7, 2);
   int mesh = scene.mesh("Wall", shape, scene.glb.addMaterial(plaster));
   scene.glb.addNode({.name = "Wall", .mesh = mesh});
 

@@ -63,7 +63,7 @@ std::vector<StressMesh> stressMeshes() {
   meshes.push_back({"Capsule", std::move(capsule), 40, {0.84f, 0.78f, 0.66f}});
   meshes.push_back({"Cone", revolvedShape(roundedProfile(cone, 5, false), false, 40), 40, {0.12f, 0.52f, 0.52f}});
   meshes.push_back({"Bowl", revolvedShape(roundedProfile(bowl, 5, false), false, 48), 48, {0.88f, 0.40f, 0.20f}});
-  meshes.push_back({"Gyroid", gyroidBallShape(0.45f, 2.0f, 0.05f, 26), 64, {0.80f, 0.82f, 0.84f}});
+  meshes.push_back({"Porous ball", porousBallShape(0.45f, 0.1f, 34), 64, {0.80f, 0.82f, 0.84f}});
   meshes.push_back({"Teapot", std::move(teapot), 64, {0.90f, 0.88f, 0.82f}});
   return meshes;
 }
