@@ -26,7 +26,7 @@ void main() {
   MeshVertex source = sources[deformVertices.x + vertex];
   vec3 position = source.position.xyz;
   vec3 normal = directionFromOctahedral(unpackSnorm2x16(floatBitsToUint(source.position.w)));
-  vec3 tangent = directionFromOctahedral(unpackSnorm2x16(source.packed.x));
+  vec3 tangent = directionFromOctahedral(unpackSnorm2x16(source.codes.x));
 
   for (uint target = 0u; target < deformSources.z; ++target) {
     float weight = morphWeights[deformWeights.x + target];
@@ -54,6 +54,6 @@ void main() {
 
   MeshVertex result = source;
   result.position = vec4(position, uintBitsToFloat(packSnorm2x16(octahedralFromDirection(normal))));
-  result.packed.x = packSnorm2x16(octahedralFromDirection(tangent));
+  result.codes.x = packSnorm2x16(octahedralFromDirection(tangent));
   results[deformVertices.z + vertex] = result;
 }

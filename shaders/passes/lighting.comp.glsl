@@ -56,17 +56,17 @@ void main() {
     imageStore(color, pixel, vec4(textureLod(environment_prefiltered, equirectFromDirection(directionWorld), 0.0).rgb, 1.0));
     return;
   }
-  vec4 packed = texelFetch(material, pixel, 0);
-  Surface surface = Surface(texelFetch(albedo, pixel, 0).rgb, packed.r, packed.g);
+  vec4 properties = texelFetch(material, pixel, 0);
+  Surface surface = Surface(texelFetch(albedo, pixel, 0).rgb, properties.r, properties.g);
   vec3 radiance;
-  if (packed.a > 0.5) {
+  if (properties.a > 0.5) {
     radiance = surface.baseColor;
   } else {
     float t = rayParameterOfDepth(originWorld, directionWorld, texelFetch(depth, pixel, 0).r);
     vec3 pointWorld = originWorld + t * directionWorld;
     vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).xy);
     vec3 toViewer = -directionWorld;
-    radiance = texelFetch(emission, pixel, 0).rgb + environmentLight(surface, normal, toViewer, packed.b);
+    radiance = texelFetch(emission, pixel, 0).rgb + environmentLight(surface, normal, toViewer, properties.b);
     for (uint i = 0u; i < frame.size.z; ++i) {
       vec3 toLight;
       vec3 irradiance = lightAt(lights[i], pointWorld, toLight);

@@ -8,7 +8,7 @@ SHARED_BEGIN
 struct MeshVertex {
   vec4 position;  // object space; w: bits of the octahedral normal, SNORM 2x16
   vec4 uv;        // set 0, set 1
-  uvec4 packed;   // x: octahedral tangent, SNORM 2x16; y, z: colour, four halves; w: sign of the bitangent, 0 none, 1 +, 2 -
+  uvec4 codes;    // x: octahedral tangent, SNORM 2x16; y, z: colour, four halves; w: sign of the bitangent, 0 none, 1 +, 2 -
 };
 SHARED_ASSERT_SIZE(MeshVertex, 48)
 

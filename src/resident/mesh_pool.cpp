@@ -30,11 +30,11 @@ shared::MeshVertex packVertex(const Primitive& primitive, std::size_t v) {
     vertex.uv[2 * set + 1] = uvs[v].y;
   }
   const glm::vec4 color = primitive.colors.empty() ? glm::vec4(1) : primitive.colors[v];
-  vertex.packed.y = glm::packHalf2x16(glm::vec2(color.x, color.y));
-  vertex.packed.z = glm::packHalf2x16(glm::vec2(color.z, color.w));
+  vertex.codes.y = glm::packHalf2x16(glm::vec2(color.x, color.y));
+  vertex.codes.z = glm::packHalf2x16(glm::vec2(color.z, color.w));
   if (!primitive.tangents.empty()) {
-    vertex.packed.x = packDirection(glm::vec3(primitive.tangents[v]));
-    vertex.packed.w = primitive.tangents[v].w < 0 ? 2u : 1u;
+    vertex.codes.x = packDirection(glm::vec3(primitive.tangents[v]));
+    vertex.codes.w = primitive.tangents[v].w < 0 ? 2u : 1u;
   }
   return vertex;
 }
@@ -100,7 +100,7 @@ MeshPool::MeshPool(const Scene& scene) : vertexArray_("mesh_pool") {
 }
 
 void MeshPool::connectVertices() {
-  constexpr std::size_t kPacked = offsetof(shared::MeshVertex, packed);
+  constexpr std::size_t kPacked = offsetof(shared::MeshVertex, codes);
   vertexArray_.setVertexBuffer(kVertexBinding, vertices_, sizeof(shared::MeshVertex));
   vertexArray_.setIndexBuffer(indices_);
   vertexArray_.setAttribute(0, kVertexBinding, 3, GL_FLOAT, 0);
