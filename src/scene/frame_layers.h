@@ -14,14 +14,14 @@ enum class SurfaceKind : std::uint8_t { None = 0, Mesh = 1, Sdf = 2 };
 /// Rows from the top. Every vector is empty (layer not made) or width * height long.
 struct FrameLayers {
   glm::uvec2 size{0};
-  std::vector<glm::vec3> color;          ///< linear scene radiance, before exposure and tone curve
-  std::vector<float> depth;              ///< metres along the view ray; infinity for sky
-  std::vector<glm::vec3> normal;         ///< world, with normal maps; zero for sky
-  std::vector<glm::vec3> normalSurface;  ///< world, before normal maps, towards the viewer; zero for sky
-  std::vector<glm::vec3> albedo;         ///< linear base colour
-  std::vector<std::int32_t> id;          ///< node index; -1 for sky
+  std::vector<glm::vec3> color;         ///< linear scene radiance, before exposure and tone curve
+  std::vector<float> depth;             ///< metres along the view ray; infinity for sky
+  std::vector<glm::vec3> normal;        ///< world, with normal maps; zero for sky
+  std::vector<glm::vec3> normalSurface; ///< world, before normal maps, towards the viewer; zero for sky
+  std::vector<glm::vec3> albedo;        ///< linear base colour
+  std::vector<std::int32_t> id;         ///< node index; -1 for sky
   std::vector<SurfaceKind> kind;
-  std::vector<float> steps;              ///< trace steps; the reference leaves it empty
+  std::vector<float> steps; ///< trace steps; the reference leaves it empty
 };
 
 } // namespace brickfield

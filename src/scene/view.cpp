@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include "core/error.h"
 
@@ -50,30 +51,39 @@ glm::dvec3 boundsCenter(const Box& bounds) {
   return bounds.isEmpty() ? glm::dvec3(0.0) : 0.5 * (glm::dvec3(bounds.min) + glm::dvec3(bounds.max));
 }
 
-/// The nearest eye on a fixed gaze that has all eight corners of the bounds in the picture, with a margin.
+/// The nearest eye with a fixed gaze that has all eight corners of the bounds in the picture, with a margin.
+///
+/// In view axes about the centre, an eye at (cx, cy, d) sees a corner (x, y, z) if |x - cx| <= w (d - z) and
+/// |y - cy| <= h (d - z), w and h being half the picture's sides one metre away. Each axis by itself is solved by
+/// d = (A + B) / 2w, cx = (A - B) / 2 with A = max(x + w z), B = max(-x + w z); the larger d serves both.
 Placement placeAround(const Pose& pose, double verticalFovRadians, double aspect) {
   constexpr double kShareOfPicture = 0.92;
   const glm::dvec3 kFromTarget(0.45, 0.35, 1.0); // in front, to the right, slightly above
   constexpr double kNearPerRadius = 1e-3;
-  const double radius = boundsRadius(pose.boundsWorld);
+  const Box bounds = pose.boundsWorld.isEmpty() ? Box{glm::vec3(-1.0f), glm::vec3(1.0f)} : pose.boundsWorld;
+  const double radius = boundsRadius(bounds);
   const double halfHeight = std::tan(0.5 * verticalFovRadians) * kShareOfPicture;
-  const double halfWidth = halfHeight * aspect;
+  const glm::dvec2 half(halfHeight * aspect, halfHeight);
 
   Placement placement;
   placement.camera.verticalFovRadians = static_cast<float>(verticalFovRadians);
   placement.camera.nearDistance = static_cast<float>(kNearPerRadius * radius);
   placement.axes = axesFrom(-kFromTarget, glm::dvec3(0, 1, 0));
-  const glm::dvec3 center = boundsCenter(pose.boundsWorld);
-  double distance = pose.boundsWorld.isEmpty() ? 3.0 * radius : 0.0;
-  for (int corner = 0; corner < 8 && !pose.boundsWorld.isEmpty(); ++corner) {
-    const glm::dvec3 point((corner & 1 ? pose.boundsWorld.max : pose.boundsWorld.min).x,
-                           (corner & 2 ? pose.boundsWorld.max : pose.boundsWorld.min).y,
-                           (corner & 4 ? pose.boundsWorld.max : pose.boundsWorld.min).z);
+  const glm::dvec3 center = boundsCenter(bounds);
+  glm::dvec2 upper(-std::numeric_limits<double>::infinity()), lower = upper;
+  double front = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 point((corner & 1 ? bounds.max : bounds.min).x, (corner & 2 ? bounds.max : bounds.min).y,
+                           (corner & 4 ? bounds.max : bounds.min).z);
     const glm::dvec3 inView = glm::transpose(placement.axes) * (point - center);
-    const double needed = std::max({std::abs(inView.x) / halfWidth, std::abs(inView.y) / halfHeight, 0.1 * radius});
-    distance = std::max(distance, needed + inView.z);
+    upper = glm::max(upper, glm::dvec2(inView) + half * inView.z);
+    lower = glm::max(lower, -glm::dvec2(inView) + half * inView.z);
+    front = std::max(front, inView.z);
   }
-  placement.eye = center + placement.axes[2] * distance;
+  const glm::dvec2 distances = (upper + lower) / (2.0 * half);
+  // A line seen end on would let the eye touch it.
+  const double distance = std::max({distances.x, distances.y, front + 0.01 * radius});
+  placement.eye = center + placement.axes * glm::dvec3(0.5 * (upper - lower), distance);
   return placement;
 }
 

@@ -10,8 +10,8 @@
 namespace brickfield {
 
 struct CameraRequest {
-  std::string camera = "";                 ///< name, number in traversal order, "auto", or "" (the first, else auto)
-  std::optional<glm::vec3> eye;            ///< with target: overrides the camera's place
+  std::string camera = "";      ///< name, number in traversal order, "auto", or "" (the first, else auto)
+  std::optional<glm::vec3> eye; ///< with target: overrides the camera's place
   std::optional<glm::vec3> target;
   std::optional<float> verticalFovDegrees;
   glm::uvec2 sizePixels{1280, 720};
@@ -19,7 +19,7 @@ struct CameraRequest {
 
 /// Reverse Z on [0,1]: the near plane has depth 1, infinity depth 0.
 struct View {
-  glm::mat4 worldFromView{1.0f};           ///< rigid; the camera looks along -Z
+  glm::mat4 worldFromView{1.0f}; ///< rigid; the camera looks along -Z
   glm::mat4 viewFromWorld{1.0f};
   glm::mat4 clipFromView{1.0f};
   glm::mat4 viewFromClip{1.0f};
