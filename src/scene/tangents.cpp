@@ -40,7 +40,7 @@ struct WeldHash {
 struct FaceFrame {
   glm::vec3 tangent{0.0f}; // unit, along growing u
   bool isUsable = false;   // has area in space and in uv
-  float handedness = 1.0f; // sign of the uv area
+  float handedness = 1.0f; // minus the sign of the uv area
 };
 
 FaceFrame faceFrame(const std::array<glm::vec3, 3>& p, const std::array<glm::vec2, 3>& uv) {
@@ -48,7 +48,8 @@ FaceFrame faceFrame(const std::array<glm::vec3, 3>& p, const std::array<glm::vec
   const glm::dvec2 t1(uv[1] - uv[0]), t2(uv[2] - uv[0]);
   const double areaUv = t1.x * t2.y - t1.y * t2.x;
   FaceFrame frame;
-  frame.handedness = areaUv < 0.0 ? -1.0f : 1.0f;
+  // MikkTSpace has v grow upwards, as the green channel of glTF's normal maps does; glTF's v grows downwards.
+  frame.handedness = areaUv < 0.0 ? 1.0f : -1.0f;
   const glm::dvec3 direction = (areaUv < 0.0 ? -1.0 : 1.0) * (t2.y * d1 - t1.y * d2);
   const double length = glm::length(direction);
   const glm::dvec3 across = glm::cross(d1, d2);
@@ -141,7 +142,8 @@ glm::vec3 contribution(const Mesh3& mesh, std::uint32_t corner, const FaceFrame&
   const glm::vec3 n = mesh.normals[vertex], p = mesh.positions[vertex];
   const glm::vec3 toNext = unitOrZero(projected(mesh.positions[mesh.indices[nextCorner(corner)]] - p, n));
   const glm::vec3 toPrevious = unitOrZero(projected(mesh.positions[mesh.indices[previousCorner(corner)]] - p, n));
-  const float angle = std::acos(std::clamp(glm::dot(toNext, toPrevious), -1.0f, 1.0f));
+  // acos would give 0 for corners below 0.0003 and drop thin triangles.
+  const float angle = std::atan2(glm::length(glm::cross(toNext, toPrevious)), glm::dot(toNext, toPrevious));
   return angle * unitOrZero(projected(frame.tangent, n));
 }
 

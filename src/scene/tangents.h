@@ -17,9 +17,10 @@ namespace brickfield {
 /// indices   three a triangle, below the number of positions
 /// normals   unit; uvs of the normal map; both as many as positions
 /// returns   one for each index: xyz unit and perpendicular to the corner's normal, w = +1 or -1 so that
-///           bitangent = w * cross(normal, tangent). Corners of one vertex may differ: split it there
-///           (makeTangents in primitive_build.h does). Corners of triangles without area in space or uv take over their
-///           neighbour's, or an arbitrary perpendicular.
+///           bitangent = w * cross(normal, tangent),
+///           which points against growing v: up in the image, as green in a glTF normal map. Corners of one vertex may
+///           differ: split it there (makeTangents in primitive_build.h does). Corners of triangles without area in
+///           space or uv take over their neighbour's, or an arbitrary perpendicular.
 /// cost      O(n log n) in the number of corners
 /// proved by tests/unit/scene/tangents_test.cpp
 std::vector<glm::vec4> cornerTangents(std::span<const std::uint32_t> indices, std::span<const glm::vec3> positions,
