@@ -1,0 +1,106 @@
+// Which triangles count as sheets.
+#include "bakers/sheets.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/bake/bakers/mesh_cases.h"
+
+using namespace brickfield;
+using namespace brickfield::test;
+
+namespace {
+
+SolidsAndSheets split(const TriangleSoup& soup, double voxelMetres, bool isCutOut = false) {
+  SheetRequest request;
+  request.voxelSize = voxelMetres * soup.unitsPerMetre;
+  request.halfThickness = 0.5 * request.voxelSize;
+  request.isCutOut.assign(soup.triangles.size(), isCutOut);
+  return findSheets(soup, analyseTopology(soup), request);
+}
+
+} // namespace
+
+TEST(Sheets, ClosedMeshHasNone) {
+  MeshCase box;
+  box.addBox(glm::vec3(-1), glm::vec3(1));
+  const SolidsAndSheets result = split(box.soup(), 2.0 / 64);
+  EXPECT_EQ(result.solid.size(), 12u);
+  EXPECT_EQ(result.sheets.size(), 0u);
+}
+
+TEST(Sheets, QuadIsOne) {
+  MeshCase quad;
+  quad.addQuad({-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1});
+  const SolidsAndSheets result = split(quad.soup(), 2.0 / 64);
+  EXPECT_EQ(result.solid.size(), 0u);
+  EXPECT_EQ(result.sheets.size(), 2u);
+}
+
+TEST(Sheets, QuadOfTwoFacingSidesIsOneOfTwoTriangles) {
+  MeshCase quad;
+  quad.addQuad({-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1});
+  quad.addQuad({-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1});
+  const SolidsAndSheets result = split(quad.soup(), 2.0 / 64);
+  EXPECT_EQ(result.solid.size(), 0u);
+  EXPECT_EQ(result.sheets.size(), 2u);
+}
+
+TEST(Sheets, WallBetweenTwoSolidsIsNone) {
+  MeshCase boxes; // they share a face: a flat pair inside a solid
+  boxes.addBox({-1, -1, -1}, {0, 1, 1});
+  boxes.addBox({0, -1, -1}, {1, 1, 1});
+  const SolidsAndSheets result = split(boxes.soup(), 2.0 / 64);
+  EXPECT_EQ(result.sheets.size(), 0u);
+  EXPECT_EQ(result.solid.size(), 20u);
+}
+
+TEST(Sheets, FloorBesideABoxIsOneAndTheBoxIsNone) {
+  MeshCase scene;
+  scene.addBox({-1, 0.5, -1}, {1, 2.5, 1});
+  scene.addQuad({-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {5, 0, -5});
+  const SolidsAndSheets result = split(scene.soup(), 10.0 / 128);
+  EXPECT_EQ(result.solid.size(), 12u);
+  EXPECT_EQ(result.sheets, (std::vector<std::uint32_t>{12, 13}));
+}
+
+TEST(Sheets, ValleyOfTerrainIsNotFilled) {
+  MeshCase terrain; // half a pipe, seen from above: its axis lies before the faces
+  constexpr int kStrips = 24;
+  const auto rim = [](int i, float z) {
+    const float angle = std::numbers::pi_v<float> * static_cast<float>(i) / kStrips;
+    return glm::vec3(-std::cos(angle), -std::sin(angle), z);
+  };
+  for (int i = 0; i < kStrips; ++i) terrain.addQuad(rim(i, -2), rim(i, 2), rim(i + 1, 2), rim(i + 1, -2));
+  const SolidsAndSheets result = split(terrain.soup(), 4.0 / 128);
+  EXPECT_EQ(result.solid.size(), 0u);
+  EXPECT_EQ(result.sheets.size(), 2u * kStrips);
+}
+
+TEST(Sheets, CutOutCardsAreWithoutALook) {
+  MeshCase bowl;
+  bowl.addSphere({0, 0, 0}, 1, 16, 32, 8);
+  EXPECT_EQ(split(bowl.soup(), 2.0 / 64).sheets.size(), 0u);
+  EXPECT_EQ(split(bowl.soup(), 2.0 / 64, true).solid.size(), 0u);
+}
+
+TEST(Sheets, LargeTriangleThatIsOneInPartIsBoth) {
+  MeshCase house; // walls and roof without a floor, on a ground plane that reaches beyond them and closes them
+  house.addBox({-1, 0, -1}, {1, 2, 1});
+  auto& indices = house.primitive().indices;
+  indices.erase(indices.begin() + 12, indices.begin() + 18);     // the face at y = 0
+  house.addQuad({-4, 0, -4}, {4, 0, -4}, {4, 0, 4}, {-4, 0, 4}); // faces down
+  const SolidsAndSheets result = split(house.soup(), 8.0 / 128);
+  const auto counts = [](const std::vector<std::uint32_t>& list) {
+    return std::count_if(list.begin(), list.end(), [](std::uint32_t t) { return t >= 10; });
+  };
+  EXPECT_EQ(counts(result.sheets), 2);
+  EXPECT_EQ(counts(result.solid), 2);
+  EXPECT_EQ(result.solid.size(), 12u);
+}
+
+TEST(Sheets, BunnyWithHolesKeepsItsSkin) {
+  BRICKFIELD_NEEDS_DATA("stanford_bunny_69k.glb");
+  const FileCase file("stanford_bunny_69k.glb");
+  const SolidsAndSheets result = split(gatherTriangles(file.input()), 1.0 / 128);
+  EXPECT_LT(result.sheets.size(), 100u);
+}
