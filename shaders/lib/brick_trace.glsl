@@ -56,8 +56,9 @@ float firstCrossing(vec4 c, float end, float s) {
     if (cubicAt(c, high) * s < 0.0) {
       float fLow = cubicAt(c, low), fHigh = cubicAt(c, high);
       // Illinois: regula falsi that cannot stall; six rounds reach float precision on a monotonic cubic.
+      float middle = high;
       for (int round = 0; round < 6; ++round) {
-        float middle = clamp(low + (high - low) * fLow / (fLow - fHigh), low, high);
+        middle = clamp(low + (high - low) * fLow / (fLow - fHigh), low, high);
         float f = cubicAt(c, middle);
         if (f * s < 0.0) {
           high = middle, fHigh = f, fLow *= 0.5;
@@ -65,7 +66,7 @@ float firstCrossing(vec4 c, float end, float s) {
           low = middle, fLow = f, fHigh *= 0.5;
         }
       }
-      return 0.5 * (low + high);
+      return middle; // the last estimate: the bracket's far end may not have moved
     }
     low = high;
   }

@@ -16,8 +16,8 @@ struct FrameContext {
   const ResidentScene& scene;
   FrameTargets& targets;
   const VisibleBoxes& visible;
-  const Buffer& counters;             ///< COUNTERS words
-  const Texture& environment;         ///< prefiltered radiance, a roughness each mip
+  const Buffer& counters;     ///< COUNTERS words
+  const Texture& environment; ///< prefiltered radiance, a roughness each mip
   const Texture& environmentBrdf;
   DrawOrder drawOrder = DrawOrder::MeshesFirst;
   bool countersOn = false;

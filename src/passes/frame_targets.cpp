@@ -45,8 +45,8 @@ void FrameTargets::bindGBuffer() const {
 
 std::size_t FrameTargets::bytes() const {
   std::size_t sum = 0;
-  for (const Texture* texture : {&depth, &depthMesh, &normalWorldOct, &albedo, &material, &emission, &id, &trace, &color,
-                                 &picture, &boxOverdraw})
+  for (const Texture* texture : {&depth, &depthMesh, &normalWorldOct, &albedo, &material, &emission, &id, &trace,
+                                 &color, &picture, &boxOverdraw})
     sum += texture->bytes();
   return sum;
 }

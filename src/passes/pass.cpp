@@ -5,19 +5,32 @@ namespace brickfield {
 
 const char* resourceName(Resource resource) {
   switch (resource) {
-  case Resource::FrameParams: return "frame_params";
-  case Resource::MeshVertices: return "mesh_vertices";
-  case Resource::MeshDraws: return "mesh_draws";
-  case Resource::SdfScene: return "sdf_scene";
-  case Resource::VisibleBoxes: return "visible_boxes";
-  case Resource::Environment: return "environment";
-  case Resource::Depth: return "depth";
-  case Resource::DepthMesh: return "depth_mesh";
-  case Resource::GBuffer: return "gbuffer";
-  case Resource::BoxOverdraw: return "box_overdraw";
-  case Resource::Color: return "color";
-  case Resource::Picture: return "picture";
-  case Resource::Counters: return "counters";
+  case Resource::FrameParams:
+    return "frame_params";
+  case Resource::MeshVertices:
+    return "mesh_vertices";
+  case Resource::MeshDraws:
+    return "mesh_draws";
+  case Resource::SdfScene:
+    return "sdf_scene";
+  case Resource::VisibleBoxes:
+    return "visible_boxes";
+  case Resource::Environment:
+    return "environment";
+  case Resource::Depth:
+    return "depth";
+  case Resource::DepthMesh:
+    return "depth_mesh";
+  case Resource::GBuffer:
+    return "gbuffer";
+  case Resource::BoxOverdraw:
+    return "box_overdraw";
+  case Resource::Color:
+    return "color";
+  case Resource::Picture:
+    return "picture";
+  case Resource::Counters:
+    return "counters";
   }
   return "unknown";
 }

@@ -13,12 +13,12 @@ enum class Resource : std::uint8_t {
   FrameParams,
   MeshVertices,
   MeshDraws,
-  SdfScene,       ///< instances, levels, indirection, atlas
-  VisibleBoxes,   ///< list and draw commands of the SDF objects
+  SdfScene,     ///< instances, levels, indirection, atlas
+  VisibleBoxes, ///< list and draw commands of the SDF objects
   Environment,
   Depth,
-  DepthMesh,      ///< depth of the meshes alone, which ends the rays of SDF objects
-  GBuffer,        ///< normal, albedo, material, emission, id, trace
+  DepthMesh, ///< depth of the meshes alone, which ends the rays of SDF objects
+  GBuffer,   ///< normal, albedo, material, emission, id, trace
   BoxOverdraw,
   Color,
   Picture,
@@ -29,15 +29,15 @@ const char* resourceName(Resource resource);
 
 /// How the GPU touches it: decides the barrier after incoherent writes.
 enum class Access : std::uint8_t {
-  Attachment,     ///< colour or depth target, blit and copy
-  Sampled,        ///< texture or image fetch of any stage
-  ImageStore,     ///< incoherent write
+  Attachment, ///< colour or depth target, blit and copy
+  Sampled,    ///< texture or image fetch of any stage
+  ImageStore, ///< incoherent write
   StorageRead,
-  StorageWrite,   ///< incoherent write
+  StorageWrite, ///< incoherent write
   Uniform,
   VertexFetch,
   Indirect,
-  Upload,         ///< written by the host
+  Upload, ///< written by the host
 };
 
 struct ResourceUse {

@@ -4,7 +4,9 @@
 namespace brickfield {
 
 VisibleBoxes::VisibleBoxes()
-    : list_("visible_boxes", 0), commands_("visible_box_commands", 2 * 4 * sizeof(std::uint32_t)), vertexArray_("visible_boxes") {
+    : list_("visible_boxes", 0),
+      commands_("visible_box_commands", 2 * 4 * sizeof(std::uint32_t)),
+      vertexArray_("visible_boxes") {
   fit(1);
 }
 

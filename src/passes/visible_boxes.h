@@ -13,7 +13,7 @@ public:
   /// Room for this many instances in both halves of the list. Renews the buffers: not between cull and draw.
   void fit(std::uint32_t instanceCount);
 
-  const Buffer& list() const { return list_; }         ///< VISIBLE_* words: facing objects, then those cut by the near plane
+  const Buffer& list() const { return list_; } ///< VISIBLE_* words: facing objects, then those cut by the near plane
   const Buffer& commands() const { return commands_; } ///< two DrawArraysIndirectCommand
 
   /// One indirect draw for all boxes, with the program in use; shaders/passes/sdf_box.vert.glsl is its vertex shader.

@@ -19,15 +19,23 @@ bool isIncoherent(Access access) { return access == Access::ImageStore || access
 // The bit that makes earlier incoherent writes visible to an access (OpenGL 4.5 core, 7.13.2).
 std::uint32_t barrierFor(Access access) {
   switch (access) {
-  case Access::Attachment: return GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT;
-  case Access::Sampled: return GL_TEXTURE_FETCH_BARRIER_BIT;
-  case Access::ImageStore: return GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
+  case Access::Attachment:
+    return GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT;
+  case Access::Sampled:
+    return GL_TEXTURE_FETCH_BARRIER_BIT;
+  case Access::ImageStore:
+    return GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
   case Access::StorageRead:
-  case Access::StorageWrite: return GL_SHADER_STORAGE_BARRIER_BIT;
-  case Access::Uniform: return GL_UNIFORM_BARRIER_BIT;
-  case Access::VertexFetch: return GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT;
-  case Access::Indirect: return GL_COMMAND_BARRIER_BIT;
-  case Access::Upload: return GL_BUFFER_UPDATE_BARRIER_BIT;
+  case Access::StorageWrite:
+    return GL_SHADER_STORAGE_BARRIER_BIT;
+  case Access::Uniform:
+    return GL_UNIFORM_BARRIER_BIT;
+  case Access::VertexFetch:
+    return GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT;
+  case Access::Indirect:
+    return GL_COMMAND_BARRIER_BIT;
+  case Access::Upload:
+    return GL_BUFFER_UPDATE_BARRIER_BIT;
   }
   return GL_ALL_BARRIER_BITS;
 }

@@ -46,7 +46,8 @@ FrameLayers readFrameLayers(const FrameTargets& targets, const View& view) {
       layers.depth[p] = rayParameterOfDepth(view, ray, depth[source]);
       layers.normal[p] = directionFromOctahedral({normals[4 * source], normals[4 * source + 1]});
       layers.normalSurface[p] = directionFromOctahedral({normals[4 * source + 2], normals[4 * source + 3]});
-      layers.albedo[p] = linearFromSrgb(glm::vec3(albedo[4 * source], albedo[4 * source + 1], albedo[4 * source + 2]) / 255.0f);
+      layers.albedo[p] =
+          linearFromSrgb(glm::vec3(albedo[4 * source], albedo[4 * source + 1], albedo[4 * source + 2]) / 255.0f);
       layers.id[p] = static_cast<std::int32_t>(ids[source] >> 2);
       layers.kind[p] = kind == shared::KIND_MESH ? SurfaceKind::Mesh : SurfaceKind::Sdf;
       layers.steps[p] = static_cast<float>(trace[2 * source]);
@@ -60,8 +61,7 @@ std::vector<std::uint8_t> readFramePicture(const FrameTargets& targets) {
   std::vector<std::uint8_t> rgb(width * height * 3);
   for (std::size_t y = 0; y < height; ++y)
     for (std::size_t x = 0; x < width; ++x)
-      for (std::size_t c = 0; c < 3; ++c)
-        rgb[(y * width + x) * 3 + c] = rgba[((height - 1 - y) * width + x) * 4 + c];
+      for (std::size_t c = 0; c < 3; ++c) rgb[(y * width + x) * 3 + c] = rgba[((height - 1 - y) * width + x) * 4 + c];
   return rgb;
 }
 

@@ -57,12 +57,9 @@ namespace {
 constexpr float kOverdrawRange = 16, kStepsRange = 64; // what settings.cpp says of the views
 
 std::vector<ResourceUse> providedByHost() {
-  return {{Resource::FrameParams, Access::Upload},
-          {Resource::MeshVertices, Access::Upload},
-          {Resource::MeshDraws, Access::Upload},
-          {Resource::SdfScene, Access::Upload},
-          {Resource::Environment, Access::ImageStore},
-          {Resource::Counters, Access::Upload}};
+  return {{Resource::FrameParams, Access::Upload},     {Resource::MeshVertices, Access::Upload},
+          {Resource::MeshDraws, Access::Upload},       {Resource::SdfScene, Access::Upload},
+          {Resource::Environment, Access::ImageStore}, {Resource::Counters, Access::Upload}};
 }
 
 } // namespace
@@ -95,7 +92,7 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
     passes.push_back({std::decay_t<decltype(pass)>::declare(), [&pass, &context] { pass.record(context); }, 0});
   };
   const bool boxesFirst = settings.drawOrder == DrawOrder::BoxesFirstAllReversed;
-  add(deform);  // moved vertices, before anything draws them
+  add(deform); // moved vertices, before anything draws them
   add(clear);
   add(sdfCull); // which boxes, and how
   if (boxesFirst) add(sdfBox);
@@ -209,8 +206,8 @@ FrameStats Renderer::stats() {
   stats.passes = parts.timers.results();
   if (!parts.scene || !parts.targets) return stats;
   const std::vector<std::uint32_t> counts = parts.counters.read<std::uint32_t>();
-  stats.counters = {counts[shared::COUNTER_FRAGMENTS],   counts[shared::COUNTER_HITS],
-                    counts[shared::COUNTER_STEPS],       counts[shared::COUNTER_BRICK_READS],
+  stats.counters = {counts[shared::COUNTER_FRAGMENTS],      counts[shared::COUNTER_HITS],
+                    counts[shared::COUNTER_STEPS],          counts[shared::COUNTER_BRICK_READS],
                     counts[shared::COUNTER_PROMISE_BROKEN], counts[shared::COUNTER_OUT_OF_STEPS]};
   stats.sdfInstances = parts.scene->sdfInstanceCount();
   if (stats.sdfInstances > 0) {
@@ -228,9 +225,9 @@ FrameStats Renderer::stats() {
 std::vector<std::string> framePassNames() {
   std::vector<std::string> names;
   for (const PassDeclaration& pass :
-       {DeformPass::declare(), ClearPass::declare(), SdfCullPass::declare(), MeshPass::declare(), DepthCopyPass::declare(),
-        SdfBoxPass::declare(), LightingPass::declare(), TonePass::declare(), BoxOverdrawPass::declare(),
-        DebugViewPass::declare()})
+       {DeformPass::declare(), ClearPass::declare(), SdfCullPass::declare(), MeshPass::declare(),
+        DepthCopyPass::declare(), SdfBoxPass::declare(), LightingPass::declare(), TonePass::declare(),
+        BoxOverdrawPass::declare(), DebugViewPass::declare()})
     names.push_back(pass.name);
   return names;
 }

@@ -17,20 +17,20 @@ namespace brickfield {
 
 /// Sums over one frame; zero where counters are off.
 struct FrameCounters {
-  std::uint32_t fragments = 0;      ///< box fragments shaded
+  std::uint32_t fragments = 0; ///< box fragments shaded
   std::uint32_t hits = 0;
   std::uint32_t steps = 0;
   std::uint32_t brickReads = 0;
-  std::uint32_t promiseBroken = 0;  ///< depths in front of the box face: must be 0
-  std::uint32_t outOfSteps = 0;     ///< rays that ran out of steps
+  std::uint32_t promiseBroken = 0; ///< depths in front of the box face: must be 0
+  std::uint32_t outOfSteps = 0;    ///< rays that ran out of steps
 };
 
 struct FrameStats {
   std::vector<PassTime> passes;
   FrameCounters counters;
   std::uint32_t sdfInstances = 0;
-  std::uint32_t sdfVisible = 0;     ///< boxes drawn
-  std::uint32_t sdfInside = 0;      ///< of them, with the near plane through the box
+  std::uint32_t sdfVisible = 0; ///< boxes drawn
+  std::uint32_t sdfInside = 0;  ///< of them, with the near plane through the box
   std::uint32_t meshDraws = 0;
   std::uint32_t bricks = 0;
   std::size_t sceneBytes = 0;

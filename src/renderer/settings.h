@@ -10,12 +10,12 @@
 namespace brickfield {
 
 struct RendererSettings {
-  float exposureEv = 0;                 ///< stops; at 0 a white diffuse surface under π lux has radiance 1
-  std::uint32_t maxTraceSteps = 2048;   ///< of a ray in one object; running out is a miss and is counted
-  int forcedLevel = -1;                 ///< level that all SDF objects show; -1: by the size of a voxel on screen
+  float exposureEv = 0;               ///< stops; at 0 a white diffuse surface under π lux has radiance 1
+  std::uint32_t maxTraceSteps = 2048; ///< of a ray in one object; running out is a miss and is counted
+  int forcedLevel = -1;               ///< level that all SDF objects show; -1: by the size of a voxel on screen
   DrawOrder drawOrder = DrawOrder::MeshesFirst;
-  bool countersOn = false;              ///< counts fragments, steps and brick reads; slower
-  std::string view;                     ///< one of debugViews(); empty: the lit picture
+  bool countersOn = false; ///< counts fragments, steps and brick reads; slower
+  std::string view;        ///< one of debugViews(); empty: the lit picture
 };
 
 /// A picture of one layer, as `--view` and `list views` name it.

@@ -16,7 +16,8 @@ enum AttributeChannel : std::size_t { kBaseColor = 0, kMaterial = 1, kEmission =
 BrickAtlas::BrickAtlas()
     : distances8_({{"distance_r8", GL_R8_SNORM}}),
       distances16_({{"distance_r16", GL_R16_SNORM}}),
-      attributes_({{"brick_base_color", GL_SRGB8_ALPHA8}, {"brick_material", GL_RGBA8}, {"brick_emission", GL_RGB9_E5}}),
+      attributes_(
+          {{"brick_base_color", GL_SRGB8_ALPHA8}, {"brick_material", GL_RGBA8}, {"brick_emission", GL_RGB9_E5}}),
       levelTable_("sdf_levels", sizeof(shared::SdfLevel) * 64),
       indirection_("indirection", sizeof(std::uint32_t) * 4096) {}
 
@@ -68,7 +69,8 @@ BrickAtlas::FieldId BrickAtlas::add(const BrickField& field) {
   held.resident.boundsObject = field.boundsObject;
   std::vector<shared::SdfLevel> rows;
   for (const BrickLevel& level : field.levels)
-    rows.push_back(addLevel(level, field.levels[0].voxelSizeObject / level.voxelSizeObject, held.levels.emplace_back()));
+    rows.push_back(
+        addLevel(level, field.levels[0].voxelSizeObject / level.voxelSizeObject, held.levels.emplace_back()));
   levelTable_.growTo(std::size_t{levelRows_.end()} * sizeof(shared::SdfLevel));
   levelTable_.upload(std::size_t{held.resident.firstLevel} * sizeof(shared::SdfLevel), rows);
   const FieldId id = nextId_++;

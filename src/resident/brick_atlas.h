@@ -17,7 +17,7 @@ namespace brickfield {
 struct ResidentField {
   std::uint32_t firstLevel = 0; ///< row of the level table
   std::uint32_t levelCount = 0;
-  float voxelSizeObject = 0;    ///< of the finest level
+  float voxelSizeObject = 0; ///< of the finest level
   glm::vec3 originObject{0};
   Box boundsObject;
 };

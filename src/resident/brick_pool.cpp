@@ -40,8 +40,8 @@ void BrickPool::fit() {
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     Texture grown = Texture::make3D(channels_[i].label, channels_[i].format, {side, side, layers * kBrickSamples});
     if (layers_ > 0)
-      glCopyImageSubData(textures_[i].id(), GL_TEXTURE_3D, 0, 0, 0, 0, grown.id(), GL_TEXTURE_3D, 0, 0, 0, 0, side, side,
-                         layers_ * kBrickSamples);
+      glCopyImageSubData(textures_[i].id(), GL_TEXTURE_3D, 0, 0, 0, 0, grown.id(), GL_TEXTURE_3D, 0, 0, 0, 0, side,
+                         side, layers_ * kBrickSamples);
     textures_[i] = std::move(grown);
   }
   layers_ = layers;
@@ -59,9 +59,12 @@ void BrickPool::upload(std::size_t channel, std::uint32_t firstSlot, std::span<c
     box.resize(run * brickBytes);
     for (std::uint32_t brick = 0; brick < run; ++brick)
       for (std::uint32_t row = 0; row < kBrickSamples * kBrickSamples; ++row)
-        std::copy_n(bricks.data() + brick * brickBytes + row * rowBytes, rowBytes, box.data() + (row * run + brick) * rowBytes);
-    const glm::ivec3 texel = glm::ivec3(column, slot / kSlotsAcross % kSlotsAcross, slot / kSlotsPerLayer) * kBrickSamples;
-    textures_[channel].upload(0, texel, {static_cast<int>(run) * kBrickSamples, kBrickSamples, kBrickSamples}, std::span<const std::byte>(box));
+        std::copy_n(bricks.data() + brick * brickBytes + row * rowBytes, rowBytes,
+                    box.data() + (row * run + brick) * rowBytes);
+    const glm::ivec3 texel =
+        glm::ivec3(column, slot / kSlotsAcross % kSlotsAcross, slot / kSlotsPerLayer) * kBrickSamples;
+    textures_[channel].upload(0, texel, {static_cast<int>(run) * kBrickSamples, kBrickSamples, kBrickSamples},
+                              std::span<const std::byte>(box));
     bricks = bricks.subspan(run * brickBytes);
     slot += run;
     left -= run;

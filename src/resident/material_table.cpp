@@ -9,16 +9,20 @@ namespace {
 
 GLenum wrapMode(Wrap wrap) {
   switch (wrap) {
-  case Wrap::Repeat: return GL_REPEAT;
-  case Wrap::ClampToEdge: return GL_CLAMP_TO_EDGE;
-  case Wrap::MirroredRepeat: return GL_MIRRORED_REPEAT;
+  case Wrap::Repeat:
+    return GL_REPEAT;
+  case Wrap::ClampToEdge:
+    return GL_CLAMP_TO_EDGE;
+  case Wrap::MirroredRepeat:
+    return GL_MIRRORED_REPEAT;
   }
   return GL_REPEAT;
 }
 
 GLenum minFilter(Filter minify, std::optional<Filter> mipmap) {
   if (!mipmap) return minify == Filter::Nearest ? GL_NEAREST : GL_LINEAR;
-  if (minify == Filter::Nearest) return *mipmap == Filter::Nearest ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_LINEAR;
+  if (minify == Filter::Nearest)
+    return *mipmap == Filter::Nearest ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_LINEAR;
   return *mipmap == Filter::Nearest ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR;
 }
 

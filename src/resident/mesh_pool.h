@@ -20,7 +20,7 @@ struct PooledPrimitive {
   std::uint32_t influences = 0;     ///< a vertex; 0: not skinned
   std::uint32_t firstInfluence = 0; ///< word in influences()
   std::uint32_t morphTargets = 0;
-  std::uint32_t firstMorphRow = 0;  ///< row in morphs()
+  std::uint32_t firstMorphRow = 0; ///< row in morphs()
   int material = -1;
   bool flatNormals = false;
 };

@@ -67,7 +67,9 @@ void ResidentScene::addMeshDraws(const PosedInstance& instance, std::vector<Pend
   for (std::size_t i = 0; i < meshes_.primitiveCount(instance.mesh); ++i) {
     const PooledPrimitive& primitive = meshes_.primitive(instance.mesh, i);
     PendingDraw draw{primitive, primitive.firstVertex, {}, mirrorSign(instance.worldFromObject) < 0};
-    const bool morphed = primitive.morphTargets > 0 && std::any_of(instance.morphWeights.begin(), instance.morphWeights.end(), [](float w) { return w != 0; });
+    const bool morphed =
+        primitive.morphTargets > 0 &&
+        std::any_of(instance.morphWeights.begin(), instance.morphWeights.end(), [](float w) { return w != 0; });
     const bool skinned = instance.skin >= 0 && primitive.influences > 0;
     if (morphed || skinned) draw.baseVertex = addDeformJob(instance, primitive) | kDeformed;
     draw.row.worldFromObject = instance.worldFromObject;
@@ -90,7 +92,9 @@ void ResidentScene::finishDraws(std::vector<PendingDraw>& pending) {
   batches_.clear();
   std::vector<shared::MeshDraw> rows;
   for (const PendingDraw& draw : pending) {
-    if (batches_.empty() || PendingDraw{batches_.back().primitive, batches_.back().baseVertex, {}, batches_.back().mirrored}.state() != draw.state())
+    if (batches_.empty() ||
+        PendingDraw{batches_.back().primitive, batches_.back().baseVertex, {}, batches_.back().mirrored}.state() !=
+            draw.state())
       batches_.push_back({draw.primitive, draw.baseVertex, static_cast<std::uint32_t>(rows.size()), 0, draw.mirrored});
     ++batches_.back().drawCount;
     rows.push_back(draw.row);
@@ -146,7 +150,8 @@ void ResidentScene::setPose(const Scene& scene, const Pose& pose) {
   for (const PosedInstance& instance : pose.instances) {
     const int field = fieldOfNode_[static_cast<std::size_t>(instance.node)];
     if (field >= 0)
-      addSdfInstance(instance, atlas_.field(fieldIds_[static_cast<std::size_t>(field)]), isDoubleSidedNode(scene, instance.mesh));
+      addSdfInstance(instance, atlas_.field(fieldIds_[static_cast<std::size_t>(field)]),
+                     isDoubleSidedNode(scene, instance.mesh));
     else
       addMeshDraws(instance, pending);
   }

@@ -1,5 +1,5 @@
-// A scene on the GPU: what is uploaded once (triangles, materials, fields) and what every pose renews (draws, instances,
-// joints, lights).
+// A scene on the GPU: what is uploaded once (triangles, materials, fields) and what every pose renews (draws,
+// instances, joints, lights).
 #pragma once
 
 #include <vector>

@@ -23,11 +23,11 @@ void DebugViewPass::record(const FrameContext& context) {
 }
 
 BoxOverdrawPass::BoxOverdrawPass(ShaderLibrary& shaders)
-    : program_(shaders.load({"box_overdraw",
-                             {{GL_VERTEX_SHADER, "passes/sdf_box.vert.glsl"},
-                              {GL_FRAGMENT_SHADER, "debug/box_overdraw.frag.glsl"}},
-                             {},
-                             {}})) {}
+    : program_(shaders.load(
+          {"box_overdraw",
+           {{GL_VERTEX_SHADER, "passes/sdf_box.vert.glsl"}, {GL_FRAGMENT_SHADER, "debug/box_overdraw.frag.glsl"}},
+           {},
+           {}})) {}
 
 PassDeclaration BoxOverdrawPass::declare() {
   return {"box_overdraw",

@@ -4,10 +4,11 @@
 namespace brickfield {
 
 MeshPass::MeshPass(ShaderLibrary& shaders)
-    : program_(shaders.load({"mesh",
-                             {{GL_VERTEX_SHADER, "passes/mesh.vert.glsl"}, {GL_FRAGMENT_SHADER, "passes/mesh.frag.glsl"}},
-                             {},
-                             {}})) {}
+    : program_(
+          shaders.load({"mesh",
+                        {{GL_VERTEX_SHADER, "passes/mesh.vert.glsl"}, {GL_FRAGMENT_SHADER, "passes/mesh.frag.glsl"}},
+                        {},
+                        {}})) {}
 
 PassDeclaration MeshPass::declare() {
   return {"mesh",

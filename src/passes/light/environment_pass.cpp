@@ -15,7 +15,8 @@ constexpr std::uint32_t kPrefilterSamples = 64;
 } // namespace
 
 EnvironmentPass::EnvironmentPass(ShaderLibrary& shaders)
-    : prefilter_(shaders.load({"environment_prefilter", {{GL_COMPUTE_SHADER, "passes/environment_prefilter.comp.glsl"}}, {}, {}})),
+    : prefilter_(shaders.load(
+          {"environment_prefilter", {{GL_COMPUTE_SHADER, "passes/environment_prefilter.comp.glsl"}}, {}, {}})),
       brdf_(Texture::make2D("environment_brdf", GL_RG16F, kBrdfSide, kBrdfSide)) {
   SamplerOptions options;
   options.minFilter = GL_LINEAR_MIPMAP_LINEAR;
@@ -33,14 +34,17 @@ void EnvironmentPass::prepare(const Environment& environment) {
   Texture source = Texture::make2D("environment_source", GL_RGBA16F, size.x, size.y, 0);
   std::vector<glm::vec4> texels;
   // Half floats end at 65504; a brighter lamp is clipped rather than infinite.
-  for (const glm::vec3& radiance : environment.radiance) texels.emplace_back(glm::min(radiance, glm::vec3(65504)), 1.0f);
-  source.upload(0, {0, 0, 0}, {size, 1}, std::as_bytes(std::span(texels)), PixelLayout{GL_RGBA, GL_FLOAT, 4, 16, false, false});
+  for (const glm::vec3& radiance : environment.radiance)
+    texels.emplace_back(glm::min(radiance, glm::vec3(65504)), 1.0f);
+  source.upload(0, {0, 0, 0}, {size, 1}, std::as_bytes(std::span(texels)),
+                PixelLayout{GL_RGBA, GL_FLOAT, 4, 16, false, false});
   source.generateMipmaps();
 
   int mips = 1;
   while (mips < kRoughnessMips && (std::min(size.x, size.y) >> mips) > 0) ++mips;
   radiance_ = Texture::make2D("environment_prefiltered", GL_RGBA16F, size.x, size.y, mips);
-  glCopyImageSubData(source.id(), GL_TEXTURE_2D, 0, 0, 0, 0, radiance_.id(), GL_TEXTURE_2D, 0, 0, 0, 0, size.x, size.y, 1);
+  glCopyImageSubData(source.id(), GL_TEXTURE_2D, 0, 0, 0, 0, radiance_.id(), GL_TEXTURE_2D, 0, 0, 0, 0, size.x, size.y,
+                     1);
   source.bind(shared::kEnvironmentUnit);
   horizontalWrap_.bind(shared::kEnvironmentUnit);
   for (int mip = 1; mip < mips; ++mip) {
