@@ -3,7 +3,8 @@
 #include "gpu/shader_source.h"
 
 #include <algorithm>
-#include <regex>
+#include <charconv>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -199,6 +200,52 @@ private:
   std::vector<std::string> open_;
 };
 
+struct LogMessage {
+  std::size_t source = 0;
+  std::size_t line = 0;
+  std::string_view kind; // what a prefix said that is cut off, else empty
+  std::string_view text;
+};
+
+// Reads a line of a log from its left end.
+class LogReader {
+public:
+  explicit LogReader(std::string_view line) : rest_(line) {}
+
+  // Mesa "1:12(3): error: ...", NVIDIA "1(12) : error C0000: ...", AMD and Intel "ERROR: 1:12: ..."
+  std::optional<LogMessage> message() {
+    LogMessage found;
+    if (take("ERROR:")) found.kind = "error: ";
+    if (take("WARNING:")) found.kind = "warning: ";
+    if (!takeNumber(found.source)) return std::nullopt;
+    std::size_t column = 0;
+    if (take("(")) {
+      if (!takeNumber(found.line) || !take(")")) return std::nullopt;
+    } else {
+      if (!take(":") || !takeNumber(found.line)) return std::nullopt;
+      if (take("(") && (!takeNumber(column) || !take(")"))) return std::nullopt;
+    }
+    if (!take(":")) return std::nullopt;
+    found.text = rest_;
+    return found;
+  }
+
+private:
+  bool take(std::string_view token) {
+    if (!rest_.starts_with(token)) return false;
+    rest_ = trimmed(rest_.substr(token.size()));
+    return true;
+  }
+  bool takeNumber(std::size_t& number) {
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), number);
+    if (error != std::errc()) return false;
+    rest_ = trimmed(rest_.substr(static_cast<std::size_t>(end - rest_.data())));
+    return true;
+  }
+
+  std::string_view rest_;
+};
+
 } // namespace
 
 ShaderText assembleShader(const fs::path& root, std::string_view path, const ShaderPreamble& preamble,
@@ -215,28 +262,18 @@ fs::file_time_type changeTime(const fs::path& path) {
 }
 
 std::vector<std::string> readableLog(std::string_view log, const std::vector<std::string>& files) {
-  // Mesa "1:12(3): error: ...", NVIDIA "1(12) : error C0000: ...", AMD and Intel "ERROR: 1:12: ..."
-  static const std::regex kPlace(R"(^\s*(?:(ERROR|WARNING):\s*)?(\d+)(?:\((\d+)\)\s*:|:(\d+)(?:\(\d+\))?:)\s*)");
-  constexpr std::size_t kPlaceBytes = 64; // std::regex recurses over its text, and a log's line may be long
   std::vector<std::string> messages;
   while (!log.empty()) {
     const std::size_t end = log.find('\n');
-    const std::string line(trimmed(log.substr(0, end)));
+    const std::string_view line = trimmed(log.substr(0, end));
     log = end == std::string_view::npos ? std::string_view() : log.substr(end + 1);
-    if (line.find_first_not_of('\0') == std::string::npos) continue;
-    const std::string head = line.substr(0, kPlaceBytes);
-    std::smatch match;
-    constexpr std::ptrdiff_t kMostDigits = 9; // fits std::stoul
-    const bool placed = std::regex_search(head, match, kPlace) && match[2].length() <= kMostDigits;
-    const std::size_t index = placed ? std::stoul(match[2]) : files.size();
-    if (index >= files.size()) {
-      messages.push_back(line);
-      continue;
-    }
-    const std::string number = match[3].matched ? match[3].str() : match[4].str();
-    const std::string kind = match[1].matched ? (match[1] == "ERROR" ? "error: " : "warning: ") : "";
-    messages.push_back(
-        fmt::format("{}:{}: {}{}", files[index], number, kind, line.substr(static_cast<std::size_t>(match.length()))));
+    if (line.find_first_not_of('\0') == std::string_view::npos) continue;
+    const std::optional<LogMessage> message = LogReader(line).message();
+    if (message && message->source < files.size())
+      messages.push_back(
+          fmt::format("{}:{}: {}{}", files[message->source], message->line, message->kind, message->text));
+    else
+      messages.emplace_back(line);
   }
   return messages;
 }
