@@ -150,7 +150,7 @@ void checkRange(const GltfDocument& document, const std::string& element, int vi
                                          layout.element, stride, viewIndex));
   if (byteOffset % layout.component != 0 || (byteOffset + view.byteOffset) % layout.component != 0)
     document.refuse(element, fmt::format("does not start at a multiple of its component's {} bytes", layout.component));
-  if (layout.columns > 1 && (byteOffset % 4 != 0 || view.byteOffset % 4 != 0))
+  if (layout.columns > 1 && byteOffset % 4 != 0)
     document.refuse(element, "its matrices do not start at a multiple of 4 bytes");
   // count < 2^32, stride <= 252, byteOffset <= 2^53: no sum below can wrap.
   const std::uint64_t end = byteOffset + stride * (count - 1) + layout.extent;

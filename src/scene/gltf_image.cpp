@@ -96,7 +96,7 @@ Image decodeImage(const GltfDocument& document, std::span<const std::byte> encod
   decoderAllocationLimit = kHeaderScratch;
   int width = 0, height = 0, channels = 0;
   if (!stbi_info_from_memory(bytes, byteCount, &width, &height, &channels))
-    document.refuse(element, "is neither a PNG nor a JPEG that can be read");
+    document.refuse(element, fmt::format("is neither a PNG nor a JPEG that can be read: {}", stbi_failure_reason()));
   const auto side = static_cast<std::uint32_t>(std::max(width, height));
   const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   if (width <= 0 || height <= 0) document.refuse(element, "has no pixels");

@@ -21,7 +21,7 @@ struct ImportLimits {
 /// Reads, validates and completes a scene.
 ///
 /// error     BadInput that names the file and the element
-/// proved by tests/unit/scene/gltf_import_test.cpp, tests/robustness/hostile_gltf_test.cpp
+/// proved by tests/unit/scene/gltf_import_test.cpp, tests/robustness/scene/hostile_gltf_test.cpp
 Scene importGltf(const std::filesystem::path& path, const ImportLimits& limits = {});
 
 } // namespace brickfield

@@ -73,6 +73,7 @@ std::vector<std::byte> decodeDataUri(std::string_view uri, const UriContext& con
   constexpr std::string_view kEncoding = ";base64";
   if (!header.ends_with(kEncoding)) refuse("is not base64");
   header.remove_suffix(kEncoding.size());
+  if (header.ends_with(';') || header.find(";;") != std::string_view::npos) refuse("has an empty parameter");
   const std::string_view mediaType = header.substr(0, header.find(';'));
   if (std::find(mediaTypes.begin(), mediaTypes.end(), mediaType) == mediaTypes.end())
     refuse(fmt::format("has the media type \"{}\", which is none of {}", mediaType, fmt::join(mediaTypes, ", ")));
