@@ -141,6 +141,9 @@ private:
 } // namespace
 
 FrameLayers traceReference(const ReferenceRequest& request, const Progress& progress) {
+  const glm::vec3 eye = glm::abs(request.view->eyeWorld);
+  if (constexpr float kFarthestEye = 1e12f; !(std::max({eye.x, eye.y, eye.z}) < kFarthestEye))
+    throw BadInput("camera", "eye", "the reference needs it within 1e12 metres of the origin");
   tbb::task_arena arena(request.threads > 0 ? request.threads : tbb::task_arena::automatic);
   return arena.execute([&] { return Tracer(request, progress).run(); });
 }

@@ -23,7 +23,7 @@ struct ReferenceRequest {
 };
 
 /// Back faces of single-sided materials are culled, alpha masks are cut; layers as FrameLayers says.
-/// error Cancelled; Failure from Embree
+/// error Cancelled; Failure from Embree; BadInput: the scene reaches beyond 1e11 metres, the eye beyond that
 FrameLayers traceReference(const ReferenceRequest& request, const Progress& progress = {});
 
 } // namespace brickfield

@@ -140,12 +140,23 @@ GeometryHandle makeTriangles(RTCDevice device, Part& part) {
   return geometry;
 }
 
+/// Farthest that geometry may reach. Embree refuses rays with coordinates beyond 1.8e18, also after an instance has
+/// divided them by its scale: 1e11 / kLeastScale stays below that with a digit to spare.
+constexpr float kLargestCoordinate = 1e11f;
+constexpr float kLeastScale = 1e-6f;
+
 /// Embree inverts an instance's matrix; what hardly has an inverse (a node flattened by a scale of 0) is carried to the
 /// world vertex by vertex instead. A thousandth of single precision's digits must remain.
 bool isInvertible(const glm::mat4& worldFromObject) {
   constexpr float kLeastRatio = 1e-4f;
   const glm::vec2 scales = scaleRange(worldFromObject);
-  return scales.x > kLeastRatio * scales.y && isFinite(glm::inverse(worldFromObject));
+  return scales.x > kLeastRatio * scales.y && scales.x > kLeastScale && scales.y < 1.0f / kLeastScale;
+}
+
+void checkReach(const Scene& scene, const Box& boundsWorld) {
+  const glm::vec3 reach = glm::max(glm::abs(boundsWorld.min), glm::abs(boundsWorld.max));
+  if (!boundsWorld.isEmpty() && std::max({reach.x, reach.y, reach.z}) > kLargestCoordinate)
+    throw BadInput(scene.name, "", "the reference traces nothing that reaches farther than 1e11 metres");
 }
 
 DeformedPrimitive carryToWorld(DeformedPrimitive object, const glm::mat4& worldFromObject) {
@@ -274,6 +285,7 @@ void ReferenceGeometry::Device::place(int node, const Shape* shape, const glm::m
 ReferenceGeometry::ReferenceGeometry(const Scene& scene, const Pose& pose, const TextureSampler& sampler,
                                      const Progress& progress)
     : device_(std::make_unique<Device>()) {
+  checkReach(scene, pose.boundsWorld);
   device_->handle.reset(rtcNewDevice(nullptr));
   if (!device_->handle) throw Failure("Embree: no device");
   rtcSetDeviceErrorFunction(device_->handle.get(), Device::rememberError, device_.get());

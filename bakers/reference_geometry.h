@@ -40,7 +40,7 @@ struct SurfaceHit {
 class ReferenceGeometry {
 public:
   /// Builds all hierarchies with the threads of the surrounding task arena.
-  /// error Failure from Embree; Cancelled
+  /// error Failure from Embree; Cancelled; BadInput where geometry reaches beyond 1e11 metres
   ReferenceGeometry(const Scene& scene, const Pose& pose, const TextureSampler& sampler, const Progress& progress);
   ~ReferenceGeometry();
   ReferenceGeometry(const ReferenceGeometry&) = delete;

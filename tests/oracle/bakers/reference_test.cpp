@@ -214,6 +214,20 @@ TEST(Reference, FlattenedNodesAreStillThere) {
   EXPECT_NEAR(layers.depth[centreOf(layers)], 3.0f, 1e-5f);
 }
 
+TEST(Reference, ExtremeScalesAreTracedOrRefused) {
+  Scene scene = sceneOf({squarePrimitive(1)});
+  for (const float scale : {1e-12f, 1e-5f, 1e5f, 1e9f}) {
+    scene.nodes[0].scale = glm::vec3(scale);
+    const FrameLayers layers = trace(scene, viewFrom({0, 0, 3 * scale}, {0, 0, 0}, {5, 5}, 0.01f * scale), darkness());
+    EXPECT_EQ(layers.id[12], 0) << scale;
+    EXPECT_NEAR(layers.depth[12] / scale, 3.0f, 1e-4f) << scale;
+  }
+  scene.nodes[0].scale = glm::vec3(1e15f);
+  EXPECT_THROW(trace(scene, viewFrom({0, 0, 3}, {0, 0, 0}), darkness()), BadInput);
+  scene.nodes[0].scale = glm::vec3(1.0f);
+  EXPECT_THROW(trace(scene, viewFrom({0, 0, 1e15f}, {0, 0, 0}), darkness()), BadInput);
+}
+
 TEST(Reference, FlatPrimitivesShadeWithTheTriangle) {
   Scene scene = sceneOf({spherePrimitive(8, 16)});
   scene.meshes[0].primitives[0].flatNormals = true;
@@ -385,6 +399,9 @@ TEST(Reference, NormalMapsBendAlongTheTangent) {
   scene.nodes[0].scale = {-1, 1, 1};
   expectNear(trace(scene, viewFrom({0, 0, 3}, {0, 0, 0}), darkness()).normal[centreOf(layers)],
              glm::normalize(glm::vec3(1, 0, 1)), 5e-3f);
+  scene.images[0].rgba = {255, 128, 255, 255};
+  expectNear(trace(scene, viewFrom({0, 0, 3}, {0, 0, 0}), darkness()).normal[centreOf(layers)],
+             glm::normalize(glm::vec3(0, 1, 1)), 5e-3f);
 }
 
 TEST(Reference, DistantTexturesAreFiltered) {
