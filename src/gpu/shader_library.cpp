@@ -72,13 +72,11 @@ std::vector<std::string> ShaderLibrary::reloadChanged() {
     const bool changed = std::ranges::any_of(
         entry->files, [&](const auto& file) { return changeTime(root_ / file.first) != file.second; });
     if (!changed) continue;
-    FileTimes files;
+    FileTimes files; // If it fails, what failed is among the files looked for, so watching these is enough.
     try {
       *entry->program = build(root_, entry->source, files);
       messages.push_back(fmt::format("reloaded {}", entry->source.label));
     } catch (const Failure& error) {
-      // What the last try read and this one did not reach stays watched: mending it there counts too.
-      for (const auto& [path, time] : entry->files) files.emplace(path, changeTime(root_ / path));
       messages.push_back(error.what());
     }
     entry->files = std::move(files);
