@@ -1,10 +1,11 @@
 // Implicit surfaces to triangles by a dual method (Gibson 1998, surface nets), then Newton steps onto the surface.
-// The mesh is closed; it is manifold where no cell is crossed by two sheets, which the caller's resolution decides.
+// The mesh is closed and manifold: grids that would give anything else are passed over.
 #include <algorithm>
 #include <cmath>
 
 #include <glm/gtc/constants.hpp>
 
+#include "core/error.h"
 #include "scenes/shapes.h"
 
 namespace brickfield::scenes {
@@ -133,6 +134,18 @@ private:
   Shape shape_;
 };
 
+/// Whether no directed edge is used twice.
+bool hasManifoldEdges(const Shape& shape) {
+  std::vector<std::uint64_t> edges;
+  edges.reserve(shape.indices.size());
+  for (std::size_t i = 0; i < shape.indices.size(); ++i) {
+    std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+    edges.push_back((static_cast<std::uint64_t>(shape.indices[i]) << 32) | shape.indices[next]);
+  }
+  std::sort(edges.begin(), edges.end());
+  return std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+}
+
 /// Maximum whose edge is rounded over about k metres (polynomial smooth maximum, Quilez).
 float smoothMax(float a, float b, float k) {
   float overlap = std::max(k - std::abs(a - b), 0.0f) / k;
@@ -142,7 +155,14 @@ float smoothMax(float a, float b, float k) {
 } // namespace
 
 Shape implicitShape(float halfSide, int cells, const std::function<float(glm::vec3)>& field) {
-  return DualMesher(halfSide, cells, field).mesh();
+  // Where the surface is a saddle, the grid may hit it so that a face of a cell has its signs crosswise, and four
+  // triangles share an edge. Another grid misses it.
+  constexpr int kAttempts = 16;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    Shape shape = DualMesher(halfSide, cells + attempt, field).mesh();
+    if (hasManifoldEdges(shape)) return shape;
+  }
+  throw Failure("an implicit surface has no manifold mesh at this resolution");
 }
 
 Shape porousBallShape(float radius, float thickness, int cells) {
@@ -180,7 +200,8 @@ Shape porousBallShape(float radius, float thickness, int cells) {
     }
     return smoothMax(shell, inHole, 0.6f * thickness);
   };
-  return implicitShape(1.06f * radius, cells, field);
+  // Two cells of room on every side.
+  return implicitShape(radius * static_cast<float>(cells) / static_cast<float>(cells - 4), cells, field);
 }
 
 } // namespace brickfield::scenes

@@ -63,8 +63,9 @@ Shape gearShape(const GearSettings& settings);
 /// nets: Gibson 1998), vertices moved onto the surface by Newton steps, normals from the gradient. No texture
 /// coordinates.
 ///
-/// field    continuous, positive on the border of the cube [-halfSide, halfSide]^3, its slope about 1
-/// cells    along each side of the cube
+/// field    continuous, positive in the outermost cells of the cube [-halfSide, halfSide]^3, its slope about 1
+/// cells    along each side of the cube; a few more where this number gives no manifold mesh
+/// error    Failure if none of the numbers does
 Shape implicitShape(float halfSide, int cells, const std::function<float(glm::vec3)>& field);
 
 /// A hollow ball with 32 round holes, on the corners and faces of an icosahedron, rims rounded.

@@ -141,7 +141,7 @@ std::vector<std::byte> stressScene(int count, std::uint64_t seed) {
     int node = glb.addNode({.name = entry.name, .mesh = mesh, .extras = sdfExtras(entry.resolution)});
     glb.addInstances(node, placements[i].translations, placements[i].rotations, placements[i].scales);
   }
-  float far = 1.45f * side + 2.0f;
+  float far = 1.25f * side + 2.0f;
   addCamera(glb, "outside", {0.55f * far, 0.4f * far, far}, {0, 0, 0}, 45);
   addCamera(glb, "inside", {0.0f, 0.0f, 0.45f * side}, {0, 0, 0}, 60);
   addSun(glb, {-2, 4, 3});
