@@ -220,24 +220,23 @@ TEST(BricksFileHostile, AnyHeaderFieldMayHoldAnything) {
   EXPECT_GT(accepted, 50);
 }
 
-// Replaces the distances of the small file by other compressed bytes, with all sizes, offsets and checksums right.
-Bytes withDistances(const Bytes& packed) {
+// Replaces one chunk of the small file by other bytes, with all sizes, offsets and checksums right.
+Bytes withChunk(ChunkKind kind, const Bytes& packed) {
   Bytes bytes = smallFile();
-  const auto at = readAt<std::uint64_t>(bytes, kChunksAt + kChunkBytes),
-             old = readAt<std::uint64_t>(bytes, kChunksAt + kChunkBytes + 8);
+  const std::size_t entry = kChunksAt + static_cast<std::size_t>(kind) * kChunkBytes;
+  const auto at = readAt<std::uint64_t>(bytes, entry), old = readAt<std::uint64_t>(bytes, entry + 8);
   const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(at);
   bytes.erase(begin, begin + static_cast<std::ptrdiff_t>(old));
   bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), packed.begin(), packed.end());
-  patch(bytes, kChunksAt + kChunkBytes + 8, std::uint64_t{packed.size()});
-  patch(bytes, kChunksAt + kChunkBytes + 16, hash64(packed));
-  for (std::size_t chunk = 2; chunk < 4; ++chunk) {
-    const std::size_t entry = kChunksAt + chunk * kChunkBytes;
-    patch(bytes, entry, readAt<std::uint64_t>(bytes, entry) + packed.size() - old);
-  }
+  patch(bytes, entry + 8, std::uint64_t{packed.size()});
+  patch(bytes, entry + 16, hash64(packed));
+  for (std::size_t later = entry + kChunkBytes; later < kChunksAt + 4 * kChunkBytes; later += kChunkBytes)
+    patch(bytes, later, readAt<std::uint64_t>(bytes, later) + packed.size() - old);
   patch(bytes, kFileBytesAt, std::uint64_t{bytes.size()});
   correctIndexChecksum(bytes, 1);
   return bytes;
 }
+Bytes withDistances(const Bytes& packed) { return withChunk(ChunkKind::Distances, packed); }
 
 Bytes compressed(const Bytes& content, bool withSize = true) {
   Bytes packed(ZSTD_compressBound(content.size()));
@@ -293,6 +292,53 @@ TEST(BricksFileHostile, DamageUnderCorrectChecksumsIsReadOrRefused) {
     traceField(read, 0, random.in(read.boundsObject), random.direction(), 0, 10);
   }
   EXPECT_GT(refused, 100);
+}
+
+TEST(BricksFileHostile, FieldsThatCannotBeSampled) {
+  // Sound as a file, unsound as a field.
+  const std::vector<std::uint32_t> cells = decodeBricks(smallFile(), "small").levels[0].indirection;
+  const auto withCell = [&](std::uint32_t cell) {
+    std::vector<std::uint32_t> changed = cells;
+    changed[3] = cell;
+    const auto raw = std::as_bytes(std::span(changed));
+    return withChunk(ChunkKind::Indirection, compressed(Bytes(raw.begin(), raw.end())));
+  };
+  ASSERT_EQ(refusal(withCell(cells[3])), "");
+  for (const std::uint32_t cell : {8u, 0x7fffffffu, 0x80000000u, 0xc000ffffu})
+    EXPECT_NE(refusal(withCell(cell)).find("level 0: indirection cell 3"), std::string::npos)
+        << refusal(withCell(cell));
+  for (const float bad : {std::nanf(""), 0.0f, -1.0f, std::numeric_limits<float>::infinity()})
+    for (const std::size_t at : {kLevelAt, kLevelAt + 16}) {
+      Bytes bytes = smallFile();
+      patch(bytes, at, bad);
+      correctIndexChecksum(bytes, 1);
+      expectRefused(bytes, "voxel size or range " + std::to_string(bad));
+    }
+}
+
+TEST(BricksFileHostile, ChunksThatDoNotTileTheFile) {
+  Bytes longer = smallFile();
+  longer.push_back(std::byte{0});
+  patch(longer, kFileBytesAt, std::uint64_t{longer.size()});
+  correctIndexChecksum(longer, 1);
+  expectRefused(longer, "a byte under no checksum");
+  EXPECT_NE(refusal(longer).find("chunks end at"), std::string::npos) << refusal(longer);
+
+  // The first chunk's size wraps around, so that the second "follows" it and all ends at the end of the file.
+  Bytes wrapped = smallFile();
+  const auto first = readAt<std::uint64_t>(wrapped, kChunksAt),
+             third = readAt<std::uint64_t>(wrapped, kChunksAt + 2 * kChunkBytes);
+  patch(wrapped, kChunksAt + 8, std::uint64_t{0} - 100);
+  patch(wrapped, kChunksAt + kChunkBytes, first - 100);
+  patch(wrapped, kChunksAt + kChunkBytes + 8, third - (first - 100));
+  correctIndexChecksum(wrapped, 1);
+  expectRefused(wrapped, "a size that wraps around");
+  EXPECT_NE(refusal(wrapped).find("reach beyond"), std::string::npos) << refusal(wrapped);
+
+  Bytes more = smallFile();
+  patch(more, kBrickCountAt, std::uint32_t{9});
+  correctIndexChecksum(more, 1);
+  EXPECT_NE(refusal(more).find("9 bricks for 8 cells"), std::string::npos) << refusal(more);
 }
 
 TEST(BricksFileHostile, AttributeBits) {

@@ -2,6 +2,7 @@
 // between the surfaces offset by +delta and -delta: spheres and tori offset to spheres and tori, whose crossings are
 // roots of polynomials. A ray that misses the outer one must miss; one that meets the inner one must hit.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <limits>
 #include <optional>
@@ -159,6 +160,52 @@ TEST(TraceField, AgreesWithTheTorusOn10000Rays) {
   }
 }
 
+// A plate of 1.3 voxels at 80 voxels, tilted against the grid: the thinnest that the samples still see everywhere.
+Body plateBody() {
+  const glm::mat3 plateFromObject = glm::mat3_cast(glm::angleAxis(0.6f, glm::normalize(glm::vec3(1, 2, 3))));
+  const glm::vec3 halfExtent(0.8f, 0.0125f, 0.6f);
+  return {"plate",
+          [=](glm::vec3 p) { return boxDistance(plateFromObject * p, glm::vec3(0), halfExtent); },
+          {glm::vec3(-0.9f), glm::vec3(0.9f)},
+          {}};
+}
+
+TEST(TraceField, FindsTheFirstZeroOfTheReconstruction) {
+  // Whatever the true surface, the walk must stop where the samples first turn negative, as marching by a 64th of a
+  // voxel finds it: no safe step may jump over a dip or end inside.
+  std::vector<Body> all = bodies();
+  all.push_back(plateBody());
+  for (const Body& body : all) {
+    const BrickField field = fieldOf(body, 80, 8, 2);
+    for (std::size_t level = 0; level < field.levels.size(); ++level) {
+      const float h = field.levels[level].voxelSizeObject;
+      const auto voxelsAt = [&](glm::vec3 p) { return sampleDistance(field, level, p) / h; };
+      Random random(40);
+      int hits = 0;
+      for (int i = 0; i < 700; ++i) {
+        const glm::vec3 origin = body.surface.center() + 1.9f * random.direction();
+        const glm::vec3 direction = glm::normalize(random.in(body.surface) - origin);
+        const auto found = traceField(field, level, origin, direction, 0, kFar);
+        // A float parameter below 8 is exact to 2.4e-7 m and a point of it to about as much again.
+        const float slack = 2e-6f / h;
+        if (found) {
+          ++hits;
+          ASSERT_LE(std::abs(voxelsAt(origin + *found * direction)), slack)
+              << body.name << " ray " << i << " level " << level;
+        }
+        for (float t = 0; t < (found ? *found : 4.0f); t += h / 64) {
+          const glm::vec3 point = origin + t * direction;
+          if (field.boundsObject.contains(point)) {
+            ASSERT_GE(voxelsAt(point), -slack)
+                << body.name << " ray " << i << " level " << level << " passes a surface at " << t;
+          }
+        }
+      }
+      EXPECT_GT(hits, 100) << body.name;
+    }
+  }
+}
+
 TEST(TraceField, DepthErrorIsBoundedByTheSlope) {
   // Rays within 0.4 m of the centre meet the 0.9 m sphere within asin(0.4 / 0.9) = 26 degrees of its normal.
   const Solid solid = sphereSolid();
@@ -249,6 +296,50 @@ TEST(TraceField, AxisParallelRaysOnBrickBorders) {
   EXPECT_GT(hits, 1000);
 }
 
+TEST(TraceField, StartsOnGridPoints) {
+  // A voxel of 1/32 m and an origin of -33/32 m are exact, so these rays start on corners of voxels and bricks, where
+  // the voxel ahead depends on the direction alone.
+  const auto sphere = [](glm::vec3 p) { return sphereDistance(p, glm::vec3(0), 0.6f); };
+  const BrickField field = makeAnalyticField(sphere, {glm::vec3(-1), glm::vec3(1)}, 64, 16, 1);
+  ASSERT_EQ(field.levels[0].voxelSizeObject, 1.0f / 32);
+  const auto delta = static_cast<float>(deltaOf(field.levels[0], 0.6f));
+  Random random(50);
+  int hits = 0;
+  for (int i = 0; i < 5000; ++i) {
+    glm::ivec3 sample;
+    for (int axis = 0; axis < 3; ++axis) sample[axis] = static_cast<int>(random.bits() % 10) * (i % 2 ? 7 : 6);
+    const glm::vec3 origin = field.originObject + glm::vec3(sample) / 32.0f;
+    if (!field.boundsObject.contains(origin) || sphere(origin) < 0.1f) continue;
+    const glm::vec3 direction = glm::normalize(0.5f * random.direction() - origin);
+    const auto found = traceField(field, 0, origin, direction, 0, kFar);
+    ++hits;
+    ASSERT_TRUE(found) << i;
+    ASSERT_LE(std::abs(sphere(origin + *found * direction)), delta) << i;
+    ASSERT_LT(glm::dot(origin + *found * direction, direction), 0) << "the far side of the sphere";
+  }
+  EXPECT_GT(hits, 2000);
+}
+
+TEST(TraceField, FindsADipWithinAVoxel) {
+  // Samples of +1 and -1 in a chequer make the saddle (1-2x)(1-2y) in the first voxel. Along y = x + 0.1 it is positive
+  // at both ends of the voxel and negative between x = 0.4 and x = 0.5.
+  BrickField field;
+  field.boundsObject = {glm::vec3(0), glm::vec3(7)};
+  BrickLevel level = makeLevel({1, glm::ivec3(1)}, DistanceFormat::R16Snorm);
+  std::array<float, kBrickSampleCount> distances;
+  distances.fill(4);
+  for (int z = 0; z < 8; ++z)
+    for (int i = 0; i < 4; ++i) distances[sampleIndex({i % 2, i / 2, z})] = i == 0 || i == 3 ? 1.0f : -1.0f;
+  appendBrick(level, {0, 0, 0}, distances);
+  field.levels.push_back(level);
+  ASSERT_EQ(validateField(field), "");
+  const auto found = traceField(field, 0, {0, 0.1f, 3.5f}, {1, 1, 0}, 0, 0.9f);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(*found, 0.4f, 1e-3f); // two codes of 4/32767 at a slope of 0.2
+  EXPECT_FALSE(traceField(field, 0, {0, 0.1f, 3.5f}, {1, 1, 0}, 0, 0.39f));
+  EXPECT_FALSE(traceField(field, 0, {0, 0.1f, 3.5f}, {1, 1, 0}, 0.45f, 0.9f)) << "starts in the dip and leaves it";
+}
+
 TEST(TraceField, RangesAndOddRays) {
   const BrickField field = fieldOf(sphereBody(), 64, 8, 2);
   const glm::vec3 origin = kCenter + glm::vec3(0, 0, 3);
@@ -284,6 +375,7 @@ TEST(TraceField, BoxFaceOfTheBoundsIsNoSurface) {
   for (std::size_t level = 0; level < 2; ++level) {
     EXPECT_FALSE(traceField(field, level, {-3, -0.5f, 0.1f}, {1, 0, 0}, 0, kFar));
     EXPECT_FALSE(traceField(field, level, {-3, -0.5f, 0.1f}, {1, 0.2f, 0}, 0, kFar)) << "leaves through the plane";
+    EXPECT_FALSE(traceField(field, level, {-1.5f, 0.5f, 3}, {1, -0.5f, 0}, 0, kFar)) << "beside the bounds all along";
     const auto hit = traceField(field, level, {-1.5f, 0.5f, 0.1f}, {1, -0.5f, 0}, 0, kFar);
     ASSERT_TRUE(hit);
     EXPECT_NEAR(*hit, 1.0f, 2 * codeVoxels(field.levels[level]) * field.levels[level].voxelSizeObject + 1e-5f);
