@@ -6,6 +6,7 @@ flags="-std=c++20 -fsyntax-only -Wall -Wextra -Werror -DBRICKFIELD_BAKERS=1 -DGL
 flags+=" -DGLM_FORCE_XYZW_ONLY -DGLM_ENABLE_EXPERIMENTAL -DBRICKFIELD_SOURCE_DIR='\"\"' -DBRICKFIELD_BINARY_DIR='\"\"'"
 flags+=" -Isrc -Ishaders -I. -Iscenes $(pkg-config --cflags Imath epoxy egl)"
 {
+  echo "builddir = $folder"
   echo "rule header"
   echo "  command = printf '\$\#include \"%s\"\\n' \$in | \${CXX} -x c++ $flags -MMD -MF \$out.d -MT \$out - && touch \$out"
   echo "  depfile = \$out.d"
