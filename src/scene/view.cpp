@@ -3,6 +3,7 @@
 #include "scene/view.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <limits>
 
@@ -51,6 +52,27 @@ glm::dvec3 boundsCenter(const Box& bounds) {
   return bounds.isEmpty() ? glm::dvec3(0.0) : 0.5 * (glm::dvec3(bounds.min) + glm::dvec3(bounds.max));
 }
 
+/// Where the eye must stand beside the axis so that the picture's margins are equal, left and right, above and below.
+/// The outermost projections move monotonically with the eye: bisection.
+glm::dvec2 centeringOffset(const std::array<glm::dvec3, 8>& pointsInView, double distance) {
+  glm::dvec2 offset(0.0);
+  for (int axis = 0; axis < 2; ++axis) {
+    double low = pointsInView[0][axis], high = low;
+    for (const glm::dvec3& point : pointsInView) low = std::min(low, point[axis]), high = std::max(high, point[axis]);
+    constexpr int kRounds = 48; // of double precision
+    for (int round = 0; round < kRounds; ++round) {
+      offset[axis] = 0.5 * (low + high);
+      double least = std::numeric_limits<double>::infinity(), most = -least;
+      for (const glm::dvec3& point : pointsInView) {
+        const double projected = (point[axis] - offset[axis]) / (distance - point.z);
+        least = std::min(least, projected), most = std::max(most, projected);
+      }
+      (least + most > 0.0 ? low : high) = offset[axis];
+    }
+  }
+  return offset;
+}
+
 /// The nearest eye with a fixed gaze that has all eight corners of the bounds in the picture, with a margin.
 ///
 /// In view axes about the centre, an eye at (cx, cy, d) sees a corner (x, y, z) if |x - cx| <= w (d - z) and
@@ -72,10 +94,12 @@ Placement placeAround(const Pose& pose, double verticalFovRadians, double aspect
   const glm::dvec3 center = boundsCenter(bounds);
   glm::dvec2 upper(-std::numeric_limits<double>::infinity()), lower = upper;
   double front = 0.0;
+  std::array<glm::dvec3, 8> cornersInView;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec3 point((corner & 1 ? bounds.max : bounds.min).x, (corner & 2 ? bounds.max : bounds.min).y,
                            (corner & 4 ? bounds.max : bounds.min).z);
     const glm::dvec3 inView = glm::transpose(placement.axes) * (point - center);
+    cornersInView[static_cast<std::size_t>(corner)] = inView;
     upper = glm::max(upper, glm::dvec2(inView) + half * inView.z);
     lower = glm::max(lower, -glm::dvec2(inView) + half * inView.z);
     front = std::max(front, inView.z);
@@ -83,7 +107,7 @@ Placement placeAround(const Pose& pose, double verticalFovRadians, double aspect
   const glm::dvec2 distances = (upper + lower) / (2.0 * half);
   // A line seen end on would let the eye touch it.
   const double distance = std::max({distances.x, distances.y, front + 0.01 * radius});
-  placement.eye = center + placement.axes * glm::dvec3(0.5 * (upper - lower), distance);
+  placement.eye = center + placement.axes * glm::dvec3(centeringOffset(cornersInView, distance), distance);
   return placement;
 }
 
