@@ -122,8 +122,14 @@ private:
 
   GridLayout layoutLevels() const {
     Box surface = soup_.boundsObject;
-    if (surfaces_.sheets)
-      surface = surface.expanded(static_cast<float>(halfThicknessMetres(longestSide() / settings_.resolution)));
+    if (surfaces_.sheets) {
+      // The slab of the coarsest level is the thickest; it must not be cut by the bounds. The voxel grows with the box,
+      // by less than a fifth, which the voxel around the box makes up for.
+      int coarsest = settings_.mips - 1;
+      while (coarsest > 0 && (kBrickCells << coarsest) > settings_.resolution + 2) --coarsest;
+      const double finest = longestSide() / settings_.resolution;
+      surface = surface.expanded(static_cast<float>(halfThicknessMetres(std::ldexp(finest, coarsest))));
+    }
     try {
       return layoutGrid(surface, settings_.resolution, settings_.mips);
     } catch (const BadInput& error) {
@@ -216,7 +222,8 @@ BakeResult bakeField(const BakeInput& input, const BakeSettings& settings, const
   checkSettings(settings);
   const auto start = std::chrono::steady_clock::now();
   BakeResult result;
-  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
+  const int most = tbb::this_task_arena::max_concurrency(); // TBB warns on the console when asked for more
+  tbb::task_arena arena(settings.threads > 0 ? std::min(settings.threads, most) : most);
   arena.execute([&] { result = FieldBaker(input, settings, progress).run(); });
   result.stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
