@@ -131,9 +131,6 @@ TEST(DemoScenes, TeapotHasThePublishedExtentAndNoFoldBetweenPatches) {
   // Eight patches of the body (rows 0.26 to 0.68) with 14 cells a side turn by 90°/14 = 6.4° a cell around, and 8.8° a
   // cell where the profile bends most, at the foot. A fold between patches would stand out from that.
   EXPECT_LT(largestFoldDegrees(teapot, 0.2601f, 0.6799f), 10.0f);
-  EXPECT_EQ(0, largestFoldDegrees(teapot, 0.2601f, 0.6799f))
-      << largestFoldDegrees(teapot, 0.2601f, 0.52f) << " " << largestFoldDegrees(teapot, 0.52f, 0.6799f) << " seam "
-      << largestFoldDegrees(teapot, 0.495f, 0.54f);
   EXPECT_GT(largestFoldDegrees(teapot, 0.2601f, 0.6799f), 5.0f);
 }
 
