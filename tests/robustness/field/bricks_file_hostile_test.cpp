@@ -316,7 +316,7 @@ TEST(BricksFileHostile, FieldsThatCannotBeSampled) {
     }
 }
 
-TEST(BricksFileHostile, ChunksThatDoNotTileTheFile) {
+TEST(BricksFileHostile, CountsAndChunksThatDoNotFit) {
   Bytes longer = smallFile();
   longer.push_back(std::byte{0});
   patch(longer, kFileBytesAt, std::uint64_t{longer.size()});
@@ -339,6 +339,9 @@ TEST(BricksFileHostile, ChunksThatDoNotTileTheFile) {
   patch(more, kBrickCountAt, std::uint32_t{9});
   correctIndexChecksum(more, 1);
   EXPECT_NE(refusal(more).find("9 bricks for 8 cells"), std::string::npos) << refusal(more);
+  patch(more, kCountsAt, glm::ivec3(1024));
+  correctIndexChecksum(more, 1);
+  EXPECT_NE(refusal(more).find("1073741824 cells are more than"), std::string::npos) << refusal(more);
 }
 
 TEST(BricksFileHostile, AttributeBits) {
