@@ -68,7 +68,8 @@ TEST(RadianceHdr, RefusesRunsThatLeaveTheLineOrDoNotAdvance) {
   const std::size_t firstRun = kHead.size() + "-Y 1 +X 16\n"s.size() + 4;
   file[firstRun] = '\x91'; // 17 of 16
   EXPECT_THAT(refusalOf([&] { decode(file); }), HasSubstr("leaves its line"));
-  file[firstRun] = '\x00';
+  file = runCoded();
+  file.insert(firstRun, 1, '\0'); // all else as it was: only the empty run is wrong
   EXPECT_THAT(refusalOf([&] { decode(file); }), HasSubstr("leaves its line"));
 }
 

@@ -49,6 +49,14 @@ TEST(SliceField, ShowsInsideSurfaceAndOutsideWhereTheyAre) {
   EXPECT_GT(at(0.45f).x, at(0.45f).z); // outside is orange
 }
 
+TEST(SliceField, HasTheLaterAxisUpwards) {
+  const RgbImage image = sliceField(planeField(), {1, 0.35f}); // across y: right is z, up is x
+  ASSERT_EQ(image.size, glm::uvec2(256, 512));
+  const glm::vec3 bottom = image.at(128, 511 - 55), top = image.at(128, 511 - 165);
+  EXPECT_GT(bottom.z, bottom.x); // x = 0.15: inside
+  EXPECT_GT(top.x, top.z);       // x = 0.45: outside
+}
+
 TEST(SliceField, RefusesAPlaneBesideTheField) {
   EXPECT_THROW(sliceField(planeField(), {0, 1.5f}), BadInput);
   EXPECT_THROW(sliceField(planeField(), {1, -0.1f}), BadInput);
