@@ -42,7 +42,7 @@ public:
   BakeProgress(const Progress& progress, std::string stage) : progress_(progress), stage_(std::move(stage)) {}
 
   void begin(std::uint64_t total) {
-    total_ = total;
+    total_ = std::max(total_, total);
     add(0);
   }
   void add(std::uint64_t bricks) {
@@ -204,19 +204,6 @@ private:
 };
 
 } // namespace
-
-BakeInput bakeInputOf(const Scene& scene, const PosedInstance& instance) {
-  const Mesh& mesh = scene.meshes.at(static_cast<std::size_t>(instance.mesh));
-  BakeInput input;
-  input.label = nodeLabel(scene, instance.node);
-  input.scene = &scene;
-  for (const Primitive& primitive : mesh.primitives) {
-    input.primitives.push_back(&primitive);
-    input.positionsObject.push_back(isDeformed(primitive, instance) ? deformPrimitive(primitive, instance).positions
-                                                                    : primitive.positions);
-  }
-  return input;
-}
 
 BakeResult bakeField(const BakeInput& input, const BakeSettings& settings, const Progress& progress) {
   checkSettings(settings);

@@ -52,6 +52,9 @@ target_link_libraries(brickfield_app PUBLIC brickfield_renderer spdlog::spdlog n
 if(BRICKFIELD_BAKERS)
   target_link_libraries(brickfield_app PUBLIC brickfield_bakers)
   target_compile_definitions(brickfield_app PUBLIC BRICKFIELD_BAKERS=1)
+else()
+  # What finds baked bricks in the cache needs no Embree.
+  target_sources(brickfield_app PRIVATE bakers/bake_input.cpp bakers/bake_cache.cpp)
 endif()
 add_executable(brickfield src/app/main.cpp)
 target_link_libraries(brickfield PRIVATE brickfield_app)

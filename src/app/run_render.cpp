@@ -1,5 +1,4 @@
 // From a request to files: load, pose, bake, draw, read back, write.
-#ifdef BRICKFIELD_BAKERS
 #include "app/run_render.h"
 
 #include <algorithm>
@@ -95,4 +94,3 @@ void runRender(const RenderRequest& request) {
 }
 
 } // namespace brickfield
-#endif

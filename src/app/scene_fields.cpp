@@ -1,5 +1,4 @@
 // Nodes that share mesh, pose and settings share a field: the content hash of the bake tells.
-#ifdef BRICKFIELD_BAKERS
 #include "app/scene_fields.h"
 
 #include <map>
@@ -52,4 +51,3 @@ SceneFieldsResult bakeSceneFields(const Scene& scene, const Pose& pose,
 }
 
 } // namespace brickfield
-#endif
