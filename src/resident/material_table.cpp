@@ -26,9 +26,6 @@ GLenum minFilter(Filter minify, std::optional<Filter> mipmap) {
   return *mipmap == Filter::Nearest ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR;
 }
 
-// Oblique floors blur without it; where the driver has none it is ignored.
-constexpr float kAnisotropy = 8;
-
 } // namespace
 
 MaterialTable::MaterialTable(const Scene& scene) : white_(Texture::make2D("white", GL_RGBA8, 1, 1)) {
@@ -54,12 +51,12 @@ MaterialTable::Slot MaterialTable::addTexture(const Scene& scene, const TextureS
   }
   result.texture = place->second;
 
+  // Trilinear only: anisotropic filtering costs llvmpipe 250 times the whole pass.
   SamplerOptions options;
   options.minFilter = minFilter(texture.minify, texture.mipmap);
   options.magFilter = texture.magnify == Filter::Nearest ? GL_NEAREST : GL_LINEAR;
   options.wrapS = wrapMode(texture.wrapU);
   options.wrapT = wrapMode(texture.wrapV);
-  options.anisotropy = options.minFilter == GL_LINEAR_MIPMAP_LINEAR ? kAnisotropy : 1;
   const std::array<int, 4> key{static_cast<int>(options.minFilter), static_cast<int>(options.magFilter),
                                static_cast<int>(options.wrapS), static_cast<int>(options.wrapT)};
   const auto [sampler, isNewSampler] = samplerOfOptions_.try_emplace(key, static_cast<int>(samplers_.size()));
