@@ -26,10 +26,11 @@ SolidWinding::SolidWinding(const TriangleSoup& soup, const MeshTopology& topolog
   makePart(open_, openTriangles);
 }
 
-bool SolidWinding::isInside(glm::dvec3 point) const {
-  const float closed = closed_ ? closed_->winding.at(point) : 0.0f;
-  if (signless_) return std::abs(closed + (open_ ? open_->winding.at(point) : 0.0f)) >= 0.5f;
-  return std::abs(closed) >= 0.5f || (open_ && open_->winding.at(point) >= 0.5f);
+double SolidWinding::excess(glm::dvec3 point) const {
+  const double closed = closed_ ? static_cast<double>(closed_->winding.at(point)) : 0.0;
+  if (!open_) return std::abs(closed) >= 0.5 ? HUGE_VAL : -HUGE_VAL;
+  if (signless_) return std::abs(closed + static_cast<double>(open_->winding.at(point))) - 0.5;
+  return std::abs(closed) >= 0.5 ? HUGE_VAL : static_cast<double>(open_->winding.at(point)) - 0.5;
 }
 
 namespace {
@@ -60,10 +61,11 @@ InsideTest::InsideTest(const TriangleSoup& soup, const MeshTopology& topology, c
   }
 }
 
-bool InsideTest::isInside(glm::dvec3 point) const {
-  if (pseudonormals_) return pseudonormals_->isInside(point, MeshDistance(*solid_).closest(point));
-  if (winding_) return winding_->isInside(point);
-  return isInsideByParity(*solid_, point);
+double InsideTest::excess(glm::dvec3 point) const {
+  if (winding_) return winding_->excess(point);
+  const bool isInside = pseudonormals_ ? pseudonormals_->isInside(point, MeshDistance(*solid_).closest(point))
+                                       : isInsideByParity(*solid_, point);
+  return isInside ? HUGE_VAL : -HUGE_VAL;
 }
 
 } // namespace brickfield

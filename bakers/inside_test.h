@@ -24,7 +24,8 @@ public:
   SolidWinding(const TriangleSoup& soup, const MeshTopology& topology, const std::vector<std::uint32_t>& triangles,
                bool signless);
 
-  bool isInside(glm::dvec3 point) const;
+  /// See InsideTest::excess.
+  double excess(glm::dvec3 point) const;
   /// True where the answer can change without a surface between: open triangles.
   bool hasOpenTriangles() const { return open_.has_value(); }
 
@@ -45,7 +46,11 @@ public:
              const std::string& label);
 
   /// point   soup space
-  bool isInside(glm::dvec3 point) const;
+  bool isInside(glm::dvec3 point) const { return excess(point) >= 0; }
+  /// How far the point is from changing sides: at least 0 inside. For open triangles their winding number less one
+  /// half, which is smooth wherever there is no triangle; infinite (either way) where only a triangle could change the
+  /// answer.
+  double excess(glm::dvec3 point) const;
 
   /// True where points that can be joined without crossing a triangle always have the same answer.
   bool isConstantBetweenSurfaces() const { return isConstant_; }

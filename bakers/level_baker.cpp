@@ -6,6 +6,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include "bakers/membranes.h"
+#include "bakers/patch_graph.h"
+
 namespace brickfield {
 
 namespace {
@@ -75,11 +78,8 @@ private:
     return static_cast<std::size_t>(std::min_element(begin, begin + kSamples, isNearer) - begin);
   }
   PackedAttributes at(std::size_t i) const {
-    const auto index = static_cast<int>(i);
-    const glm::ivec3 sample(index % kBrickSamples, index / kBrickSamples % kBrickSamples,
-                            index / (kBrickSamples * kBrickSamples));
     const std::uint32_t triangle = samples_.triangles[begin_ + i];
-    const PointOnTriangle on = closestPointOnTriangle(request_.sampling.grid.sample(brick_, sample),
+    const PointOnTriangle on = closestPointOnTriangle(request_.sampling.grid.sample(brick_, sampleOfIndex(i)),
                                                       request_.sampling.soup->corners(triangle));
     return request_.attributes->at(triangle, on, request_.layout.voxelSizeObject);
   }
@@ -107,7 +107,10 @@ void fillAttributes(BrickLevel& level, const LevelBakeRequest& request, const Le
 BrickLevel bakeLevel(const LevelBakeRequest& request) {
   LevelSamples samples = sampleLevel(request.sampling);
   LevelSigns signs;
-  if (request.inside) signs = floodSigns(samples, *request.inside);
+  if (request.inside) {
+    signs = floodSigns(samples, *request.inside);
+    insertMembranes(request.sampling, *request.inside, samples, signs);
+  }
   const SignedSamples signedSamples = combine(samples, signs.sampleInside);
 
   const bool isComplete = request.sampling.isComplete;

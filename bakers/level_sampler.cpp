@@ -85,26 +85,25 @@ void boundCells(const SamplingRequest& request, LevelSamples& level) {
 
 /// One surface's distances at the 512 samples of a brick. Each query starts from the sample before it along x, at the
 /// row's start from the row before; the very first is not capped, so that there always is a triangle to start from.
-struct BrickSampler {
-  const SamplingRequest& request;
+struct SurfaceSampler {
+  const SampleGrid& grid;
   const MeshDistance& surface;
   double offset; ///< taken off the distance
+  bool isCapped;
 
   void run(glm::ivec3 brick, float* distances, std::uint32_t* triangles) const {
-    const double voxelSize = request.grid.voxelSize;
-    const double cap = kSampledRangeVoxels * voxelSize + offset;
+    const double cap = kSampledRangeVoxels * grid.voxelSize + offset;
     std::uint32_t rowHint = kNoTriangle, layerHint = kNoTriangle;
     std::size_t i = 0;
     for (int z = 0; z < kBrickSamples; ++z)
       for (int y = 0; y < kBrickSamples; ++y) {
         std::uint32_t hint = y == 0 ? layerHint : rowHint;
         for (int x = 0; x < kBrickSamples; ++x, ++i) {
-          const bool isCapped = !request.isComplete && i > 0;
-          const ClosestTriangle closest =
-              surface.closest(request.grid.sample(brick, {x, y, z}), isCapped ? cap : HUGE_VAL, hint);
+          const double limit = isCapped && i > 0 ? cap : HUGE_VAL;
+          const ClosestTriangle closest = surface.closest(grid.sample(brick, {x, y, z}), limit, hint);
           if (closest.triangle != kNoTriangle) hint = closest.triangle;
           const double distance = closest.triangle != kNoTriangle ? closest.distance : cap;
-          distances[i] = static_cast<float>((distance - offset) / voxelSize);
+          distances[i] = static_cast<float>((distance - offset) / grid.voxelSize);
           triangles[i] = hint;
           if (x == 0) rowHint = hint;
           if (x == 0 && y == 0) layerHint = hint;
@@ -113,19 +112,31 @@ struct BrickSampler {
   }
 };
 
-/// Distances of one brick to solids and sheets; returns the least to any surface.
-float sampleBrick(const SamplingRequest& request, LevelSamples& level, std::size_t slot, glm::ivec3 brick) {
+float leastDistance(const SamplingRequest& request, const BrickSamples& samples) {
   float least = std::numeric_limits<float>::infinity();
-  const std::size_t begin = slot * kSamples;
-  const auto take = [&](const std::optional<MeshDistance>& surface, std::vector<float>& distances,
-                        std::vector<std::uint32_t>& triangles, double offset) {
-    if (!surface) return;
-    BrickSampler{request, *surface, offset}.run(brick, &distances[begin], &triangles[begin]);
-    for (std::size_t i = begin; i < begin + kSamples; ++i) least = std::min(least, std::abs(distances[i]));
-  };
-  take(request.surfaces->solid, level.solidDistances, level.solidTriangles, 0);
-  take(request.surfaces->sheets, level.sheetDistances, level.sheetTriangles, request.halfThickness);
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    if (request.surfaces->solid) least = std::min(least, samples.solidDistances[i]);
+    if (request.surfaces->sheets) least = std::min(least, std::abs(samples.sheetDistances[i]));
+  }
   return least;
+}
+
+/// Copies a brick's samples to a slot of the level's arrays.
+void putBrick(const SamplingRequest& request, std::size_t slot, const BrickSamples& samples, LevelSamples& level) {
+  const auto put = [slot](const auto& from, auto& to) {
+    std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(slot * kSamples));
+  };
+  if (request.surfaces->solid)
+    put(samples.solidDistances, level.solidDistances), put(samples.solidTriangles, level.solidTriangles);
+  if (request.surfaces->sheets)
+    put(samples.sheetDistances, level.sheetDistances), put(samples.sheetTriangles, level.sheetTriangles);
+}
+
+void resizeBricks(const SamplingRequest& request, std::size_t count, LevelSamples& level) {
+  if (request.surfaces->solid)
+    level.solidDistances.resize(count * kSamples), level.solidTriangles.resize(count * kSamples);
+  if (request.surfaces->sheets)
+    level.sheetDistances.resize(count * kSamples), level.sheetTriangles.resize(count * kSamples);
 }
 
 template <typename Value>
@@ -141,9 +152,8 @@ void dropBricks(LevelSamples& level, const std::vector<std::uint32_t>& candidate
                 const std::vector<float>& leastVoxels, bool isComplete) {
   std::vector<std::size_t> kept;
   for (std::size_t slot = 0; slot < candidates.size(); ++slot) {
-    const double bound = static_cast<double>(leastVoxels[slot]) - kFaceHalfDiagonalVoxels - kBoundSlackVoxels;
     float& cellBound = level.cellBounds[candidates[slot]];
-    cellBound = std::max(cellBound, static_cast<float>(bound));
+    cellBound = std::max(cellBound, boundBySamples(leastVoxels[slot]));
     if (isComplete || isBrickStored(cellBound)) kept.push_back(slot);
   }
   keepBricks(level.solidDistances, kept);
@@ -158,6 +168,30 @@ void dropBricks(LevelSamples& level, const std::vector<std::uint32_t>& candidate
 
 } // namespace
 
+float boundBySamples(float leastVoxels) {
+  return static_cast<float>(static_cast<double>(leastVoxels) - kFaceHalfDiagonalVoxels - kBoundSlackVoxels);
+}
+
+void sampleBrick(const SamplingRequest& request, glm::ivec3 brick, bool isCapped, BrickSamples& samples) {
+  const BakeSurfaces& surfaces = *request.surfaces;
+  if (surfaces.solid)
+    SurfaceSampler{request.grid, *surfaces.solid, 0, isCapped}.run(brick, samples.solidDistances.data(),
+                                                                   samples.solidTriangles.data());
+  if (surfaces.sheets)
+    SurfaceSampler{request.grid, *surfaces.sheets, request.halfThickness, isCapped}.run(
+        brick, samples.sheetDistances.data(), samples.sheetTriangles.data());
+}
+
+void storeBrick(const SamplingRequest& request, std::size_t cell, const BrickSamples& samples, LevelSamples& level) {
+  std::uint32_t& slot = level.brickOfCell[cell];
+  if (slot == kNoBrick) {
+    slot = static_cast<std::uint32_t>(level.brickCount());
+    level.cellOfBrick.push_back(static_cast<std::uint32_t>(cell));
+    resizeBricks(request, level.brickCount(), level);
+  }
+  putBrick(request, slot, samples, level);
+}
+
 LevelSamples sampleLevel(const SamplingRequest& request) {
   LevelSamples level;
   level.grid = request.grid;
@@ -168,17 +202,13 @@ LevelSamples sampleLevel(const SamplingRequest& request) {
   for (std::uint32_t cell = 0; cell < level.cellBounds.size(); ++cell)
     if (request.isComplete || isBrickStored(level.cellBounds[cell])) candidates.push_back(cell);
   request.admit(candidates.size());
-  if (request.surfaces->solid) {
-    level.solidDistances.resize(candidates.size() * kSamples);
-    level.solidTriangles.resize(candidates.size() * kSamples);
-  }
-  if (request.surfaces->sheets) {
-    level.sheetDistances.resize(candidates.size() * kSamples);
-    level.sheetTriangles.resize(candidates.size() * kSamples);
-  }
+  resizeBricks(request, candidates.size(), level);
   std::vector<float> leastVoxels(candidates.size());
   tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t slot) {
-    leastVoxels[slot] = sampleBrick(request, level, slot, request.grid.brickOfCell(candidates[slot]));
+    BrickSamples samples;
+    sampleBrick(request, request.grid.brickOfCell(candidates[slot]), !request.isComplete, samples);
+    leastVoxels[slot] = leastDistance(request, samples);
+    putBrick(request, slot, samples, level);
     request.done(1);
   });
   dropBricks(level, candidates, leastVoxels, request.isComplete);

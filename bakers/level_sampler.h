@@ -50,11 +50,11 @@ struct SampleGrid {
 /// any.
 struct LevelSamples {
   SampleGrid grid;
-  double halfThickness = 0;                  ///< soup space
-  std::vector<float> cellBounds;             ///< a cell: at most the distance of any of its points to the surface
-  std::vector<std::uint8_t> cellInSheet;     ///< a cell: its centre lies in a sheet's slab
-  std::vector<std::uint32_t> brickOfCell;    ///< kNoBrick where the surface stays away
-  std::vector<std::uint32_t> cellOfBrick;    ///< ascending
+  double halfThickness = 0;               ///< soup space
+  std::vector<float> cellBounds;          ///< a cell: at most the distance of any of its points to the surface
+  std::vector<std::uint8_t> cellInSheet;  ///< a cell: its centre lies in a sheet's slab
+  std::vector<std::uint32_t> brickOfCell; ///< kNoBrick where the surface stays away
+  std::vector<std::uint32_t> cellOfBrick;
   std::vector<float> solidDistances;         ///< unsigned; where beyond the range, some lower bound beyond it
   std::vector<std::uint32_t> solidTriangles; ///< closest, or one not far from that where beyond the range
   std::vector<float> sheetDistances;         ///< negative inside the slab
@@ -72,6 +72,21 @@ struct SamplingRequest {
   std::function<void(std::size_t bricks)> admit; ///< asked before memory for so many bricks is taken; may throw
   std::function<void(std::size_t bricks)> done;  ///< called from any thread as bricks are finished; may throw
 };
+
+/// Distances of one brick, as LevelSamples has them.
+struct BrickSamples {
+  std::array<float, kBrickSampleCount> solidDistances, sheetDistances;
+  std::array<std::uint32_t, kBrickSampleCount> solidTriangles, sheetTriangles;
+};
+
+/// isCapped  distances beyond the range need not be exact
+void sampleBrick(const SamplingRequest& request, glm::ivec3 brick, bool isCapped, BrickSamples& samples);
+
+/// Puts a brick's samples in the place of the cell's brick, or at the end as a new one.
+void storeBrick(const SamplingRequest& request, std::size_t cell, const BrickSamples& samples, LevelSamples& level);
+
+/// Lower bound in voxels over a closed brick, from the least unsigned distance of its samples.
+float boundBySamples(float leastVoxels);
 
 /// A brick is stored if the surface may come within kTouchVoxels of its closed box: by the distance at its centre, then
 /// at those of its eighths, at last by its samples.

@@ -28,7 +28,7 @@ struct SheetRequest {
 /// until none is left to find: the half turn that a plane makes close to itself would else drown the sign of its
 /// surroundings. Open triangles with holes in their material (leaf cards) are sheets without a look.
 ///
-/// cost      two winding numbers a triangle and round, all threads; at most 8 rounds
+/// cost      about one winding number a triangle and one of the found sheets a triangle and round, all threads
 /// proved by tests/bake/bakers/sheets_test.cpp
 SolidsAndSheets findSheets(const TriangleSoup& soup, const MeshTopology& topology, const SheetRequest& request);
 

@@ -1,5 +1,6 @@
 // Signs of a level: parts of space that no triangle divides have one sign, found by flooding over samples and decided
-// by several inside tests each; where those disagree (open meshes), sample by sample.
+// by several inside tests each. Open meshes may change sign without a triangle between: there each brick's patches are
+// decided by themselves, and sample by sample where their tests disagree.
 #pragma once
 
 #include "bakers/inside_test.h"
@@ -10,11 +11,12 @@ namespace brickfield {
 struct LevelSigns {
   std::vector<std::uint8_t> sampleInside; ///< 512 a brick
   std::vector<std::uint8_t> cellInside;   ///< a cell; of use where there is no brick
+  std::vector<std::uint32_t> mixedCells; ///< ascending: cells, with and without brick, where the sign changes by itself
 };
 
 /// level     with solid distances
 /// returns   1 where inside the solids
-/// proved by tests/bake/bakers/sign_test.cpp
+/// proved by tests/bake/bakers/bake_field_test.cpp
 LevelSigns floodSigns(const LevelSamples& level, const InsideTest& test);
 
 } // namespace brickfield

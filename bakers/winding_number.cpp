@@ -145,13 +145,12 @@ void WindingNumber::setLane(Dipoles& dipoles, std::size_t lane, const Cluster& c
 }
 
 Float4 WindingNumber::farSolidAngles(const Dipoles& dipoles, std::size_t half, const Vector4& r, Float4 rSquared) {
-  const std::array<Float4, 3> axes = {r.x, r.y, r.z};
   const Vector4 spread = dipoles.spread.half(half), shear = dipoles.shear.half(half);
-  const Float4 quadratic =
-      dot(spread, {r.x * r.x, r.y * r.y, r.z * r.z}) + dot(shear, {r.x * r.y, r.y * r.z, r.z * r.x});
-  Float4 cubic = broadcast(0.0f);
-  for (std::size_t i = 0; i < kMonomials.size(); ++i)
-    cubic += dipoles.cubics[i].halves[half] * axes[kMonomials[i][0]] * axes[kMonomials[i][1]] * axes[kMonomials[i][2]];
+  const Float4 xx = r.x * r.x, yy = r.y * r.y, zz = r.z * r.z;
+  const Float4 quadratic = dot(spread, {xx, yy, zz}) + dot(shear, {r.x * r.y, r.y * r.z, r.z * r.x});
+  const auto c = [&](std::size_t i) { return dipoles.cubics[i].halves[half]; }; // in the order of kMonomials
+  const Float4 cubic = r.x * (c(0) * xx + c(3) * yy + c(5) * zz + r.y * (c(1) * r.x + c(4) * r.z) + c(2) * r.x * r.z) +
+                       r.y * (c(6) * yy + c(8) * zz + c(7) * r.y * r.z) + c(9) * zz * r.z;
   const Float4 oneOverRSquared = broadcast(1.0f) / rSquared;
   Float4 oneOverR;
   for (std::size_t i = 0; i < 4; ++i) oneOverR[i] = std::sqrt(oneOverRSquared[i]);
@@ -180,7 +179,9 @@ float WindingNumber::at(glm::dvec3 point) const {
       const Vector4 r = dipoles.center.half(h) - p4;
       const Float4 rSquared = dot(r, r);
       const Float4 nearSquared = broadcast(kFarRadii * kFarRadii) * dipoles.radiusSquared.halves[h];
-      const Float4 far = farSolidAngles(dipoles, h, r, rSquared);
+      bool anyFar = false;
+      for (std::size_t i = 0; i < 4; ++i) anyFar |= rSquared[i] > nearSquared[i];
+      const Float4 far = anyFar ? farSolidAngles(dipoles, h, r, rSquared) : broadcast(0.0f);
       for (std::size_t i = 0; i < 4; ++i) {
         const HierarchyChild child = node.children[4 * h + i];
         if (rSquared[i] > nearSquared[i])
