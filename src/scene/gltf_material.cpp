@@ -53,8 +53,9 @@ const json* extensionOf(const json& object, std::string_view name) {
   return extension == extensions->end() ? nullptr : &*extension;
 }
 
-// uv' = T * R * S * uv; a positive rotation turns counter-clockwise as seen with v upwards, which in glTF's downward v
-// is the matrix that the extension gives: [cos sin; -sin cos].
+// uv' = T * R * S * uv. The extension says "counter-clockwise", which in glTF's downward v is R = [cos sin; -sin cos];
+// its example code turns the other way. The markers of the sample TextureTransformTest decide for the text
+// (tests/unit/scene/gltf_material_test.cpp).
 glm::mat3 textureFromUv(const json& transform) {
   glm::vec2 offset(0.0f), scale(1.0f);
   if (const auto it = transform.find("offset"); it != transform.end())

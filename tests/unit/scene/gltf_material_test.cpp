@@ -1,10 +1,12 @@
 // Materials, textures, samplers, images.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/data.h"
 #include "tests/unit/scene/gltf_builder.h"
 
 namespace brickfield::test {
@@ -83,10 +85,37 @@ TEST(GltfMaterial, TextureTransformTurnsScalesAndShifts) {
     EXPECT_NEAR(actual.x, expected.x, 1e-6f);
     EXPECT_NEAR(actual.y, expected.y, 1e-6f);
   };
-  // Scale to (2u, 3v), then turn by 90 degrees, (x, y) -> (y, -x) as the extension's matrix has it, then shift.
+  // Scale to (2u, 3v), then turn by 90 degrees, (x, y) -> (y, -x) counter-clockwise with v downwards, then shift.
   expectAt(apply(0, 0), {0.5f, 0.25f});
   expectAt(apply(1, 0), {0.5f, 0.25f - 2.0f});
   expectAt(apply(0, 1), {0.5f + 3.0f, 0.25f});
+}
+
+TEST(GltfMaterial, RotationTurnsAsTheSampleMarks) {
+  // The quad "Rotation" shows an arrow that starts in its upper left corner; child nodes mark where it should point and
+  // where it points when turned the wrong way.
+  BRICKFIELD_NEEDS_DATA("texture_transform_test.glb");
+  const Scene scene = importGltf(dataFile("texture_transform_test.glb"));
+  const auto quad =
+      std::find_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.name == "Rotation"; });
+  ASSERT_NE(quad, scene.nodes.end());
+  const Primitive& primitive = scene.meshes[static_cast<std::size_t>(quad->mesh)].primitives[0];
+  const TextureSlot& slot = materialOf(scene, primitive).baseColorTexture;
+  const Image& image =
+      scene.images[static_cast<std::size_t>(scene.textures[static_cast<std::size_t>(slot.texture)].image)];
+  const auto redTowards = [&](const char* marker) {
+    const auto node =
+        std::find_if(scene.nodes.begin(), scene.nodes.end(), [&](const Node& n) { return n.name == marker; });
+    const glm::vec2 corner(-0.5f, 0.5f);
+    const glm::vec2 place = corner + 0.5f * (glm::vec2(node->translation) - corner);
+    const glm::vec2 uv(slot.textureFromUv * glm::vec3(place.x + 0.5f, 0.5f - place.y, 1.0f));
+    const auto column = static_cast<std::size_t>(uv.x * static_cast<float>(image.size.x));
+    const auto row = static_cast<std::size_t>(uv.y * static_cast<float>(image.size.y));
+    return static_cast<int>(image.rgba[4 * (row * image.size.x + column)]);
+  };
+  EXPECT_LT(redTowards("Rotation - Correct"), 50) << "the black arrow";
+  EXPECT_GT(redTowards("Rotation - Error"), 200) << "the white ground";
+  EXPECT_GT(redTowards("Rotation - Not Supported"), 200);
 }
 
 TEST(GltfMaterial, SamplersOfEveryKind) {

@@ -54,6 +54,7 @@ TEST_F(GltfUri, FilesBeneathTheFolderAreReadPercentDecoded) {
 TEST_F(GltfUri, WaysOutOfTheFolderAreRefused) {
   EXPECT_THAT(error("../outside.bin"), HasSubstr("leads out"));
   EXPECT_THAT(error("inner/../../outside.bin"), HasSubstr("leads out"));
+  EXPECT_THAT(error("inner/../inner/a%20b.bin"), HasSubstr("leads out")) << "even where it comes back";
   EXPECT_THAT(error("%2e%2e/outside.bin"), HasSubstr("leads out"));
   EXPECT_THAT(error("%2e%2e%2foutside.bin"), HasSubstr("leads out"));
   EXPECT_THAT(error("link.bin"), HasSubstr("leads out")) << "a symbolic link";
