@@ -34,19 +34,20 @@ void main() {
 
   // Differences between neighbours first: after a discard they are undefined.
   vec3 face = faceNormal();
+  UvPixel uv = UvPixel(uvSets, dFdx(uvSets), dFdy(uvSets));
   vec4 base = m.baseColor * vertexColor;
-  if (usesTexture(m, MATERIAL_BASE_COLOR)) base *= MATERIAL_SAMPLE(m, MATERIAL_BASE_COLOR, uvSets);
+  if (usesTexture(m, MATERIAL_BASE_COLOR)) base *= MATERIAL_SAMPLE(m, MATERIAL_BASE_COLOR, uv);
   vec2 metallicRoughness = m.factors.xy;
   if (usesTexture(m, MATERIAL_METALLIC_ROUGHNESS))
-    metallicRoughness *= MATERIAL_SAMPLE(m, MATERIAL_METALLIC_ROUGHNESS, uvSets).bg;
+    metallicRoughness *= MATERIAL_SAMPLE(m, MATERIAL_METALLIC_ROUGHNESS, uv).bg;
   float occlusion = 1.0;
   if (usesTexture(m, MATERIAL_OCCLUSION))
-    occlusion = 1.0 + m.factors.w * (MATERIAL_SAMPLE(m, MATERIAL_OCCLUSION, uvSets).r - 1.0);
+    occlusion = 1.0 + m.factors.w * (MATERIAL_SAMPLE(m, MATERIAL_OCCLUSION, uv).r - 1.0);
   vec3 emitted = m.emission.rgb;
-  if (usesTexture(m, MATERIAL_EMISSION)) emitted *= MATERIAL_SAMPLE(m, MATERIAL_EMISSION, uvSets).rgb;
+  if (usesTexture(m, MATERIAL_EMISSION)) emitted *= MATERIAL_SAMPLE(m, MATERIAL_EMISSION, uv).rgb;
   vec3 mapped = vec3(0.0, 0.0, 1.0);
   if (usesTexture(m, MATERIAL_NORMAL))
-    mapped = (MATERIAL_SAMPLE(m, MATERIAL_NORMAL, uvSets).xyz * 2.0 - 1.0) * vec3(m.factors.zz, 1.0);
+    mapped = (MATERIAL_SAMPLE(m, MATERIAL_NORMAL, uv).xyz * 2.0 - 1.0) * vec3(m.factors.zz, 1.0);
 
   if (m.emission.w >= 0.0 && base.a < m.emission.w) discard;
 
