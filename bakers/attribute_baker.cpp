@@ -1,5 +1,9 @@
-// Alpha is coverage: it is kept where the material cuts or blends, and 1 where it is opaque, whatever the texture says.
+// Alpha is coverage: it is kept where the material cuts or blends, and 1 where it is opaque, whatever the texture says,
+// and where the mask has cut the geometry itself. There textures are read at half a voxel's width: what lies beyond the
+// cut, often black, is to stay out of the colour.
 #include "bakers/attribute_baker.h"
+
+#include <algorithm>
 
 #include "field/brick_field.h"
 
@@ -25,20 +29,38 @@ AttributeBaker::AttributeBaker(const BakeInput& input, const TriangleSoup& soup)
 }
 
 PackedAttributes AttributeBaker::at(std::uint32_t triangle, const PointOnTriangle& on, float voxelMetres) const {
-  const std::size_t primitiveIndex = soup_->primitiveIndices[triangle];
+  const std::size_t firstPiece = soup_->firstPiece();
+  if (triangle < firstPiece) return atParent(triangle, glm::vec2(on.barycentric), voxelMetres);
+  // A piece's rim may lie beyond the cut, by a part of the smallest piece: the point is drawn towards the centroid, by
+  // about half a voxel, and for small pieces all the way.
+  const auto [p, q, r] = soup_->corners(triangle);
+  const auto edgeMetres =
+      static_cast<float>(std::max({glm::length(q - p), glm::length(r - q), glm::length(p - r)}) / soup_->unitsPerMetre);
+  const float share = std::max(0.0f, 1.0f - voxelMetres / edgeMetres);
+  const glm::vec2 weights = glm::mix(glm::vec2(1.0f / 3.0f), glm::vec2(on.barycentric), share);
+  const auto& [a, b, c] = soup_->pieceBarycentrics[triangle - firstPiece];
+  PackedAttributes packed =
+      atParent(triangle, a + weights.x * (b - a) + weights.y * (c - a), share > 0.0f ? 0.5f * voxelMetres : 0.0f);
+  packed.baseColor = packRgba8(glm::vec4(glm::vec3(unpackRgba8(packed.baseColor)), 1.0f));
+  return packed;
+}
+
+PackedAttributes AttributeBaker::atParent(std::uint32_t triangle, glm::vec2 barycentric, float footprintMetres) const {
+  const std::size_t primitiveIndex = soup_->primitiveIndices[triangle], number = soup_->triangleIndices[triangle];
   if (constants_[primitiveIndex]) return *constants_[primitiveIndex];
   const Primitive& primitive = *input_->primitives[primitiveIndex];
-  const std::size_t number = soup_->triangleIndices[triangle];
-  MaterialPoint point = materialPointOf(primitive, number, glm::vec2(on.barycentric));
+  MaterialPoint point = materialPointOf(primitive, number, barycentric);
+  std::array<std::uint32_t, 3> vertices;
   std::array<glm::vec3, 3> positions;
-  for (std::size_t k = 0; k < 3; ++k)
-    positions[k] = glm::vec3(soup_->corners(triangle)[k] - soup_->corners(triangle)[0]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    vertices[k] = primitive.indices[3 * number + k];
+    positions[k] = input_->positionsObject[primitiveIndex][vertices[k]];
+  }
   for (std::size_t set = 0; set < 2; ++set) {
-    if (primitive.uvs[set].empty()) continue;
-    std::array<glm::vec2, 3> uvs;
-    for (std::size_t k = 0; k < 3; ++k) uvs[k] = primitive.uvs[set][primitive.indices[3 * number + k]];
+    const std::vector<glm::vec2>& uvs = primitive.uvs[set];
+    if (uvs.empty()) continue;
     point.uvPerFootprint[set] =
-        uvPerFootprintOf(positions, uvs, voxelMetres * static_cast<float>(soup_->unitsPerMetre));
+        uvPerFootprintOf(positions, {uvs[vertices[0]], uvs[vertices[1]], uvs[vertices[2]]}, footprintMetres);
   }
   return sample(materialOf(*input_->scene, primitive), point);
 }

@@ -31,6 +31,8 @@ public:
   PackedAttributes at(std::uint32_t triangle, const PointOnTriangle& on, float voxelMetres) const;
 
 private:
+  /// The same by weights in the triangle of the primitive.
+  PackedAttributes atParent(std::uint32_t triangle, glm::vec2 barycentric, float footprintMetres) const;
   PackedAttributes sample(const Material& material, const MaterialPoint& point) const;
 
   const BakeInput* input_;

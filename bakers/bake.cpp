@@ -10,6 +10,7 @@
 #include <tbb/task_arena.h>
 
 #include "bakers/level_baker.h"
+#include "bakers/mask_cut.h"
 #include "bakers/sheets.h"
 #include "core/error.h"
 
@@ -114,6 +115,10 @@ private:
       split.solid = std::move(all);
     }
     sheetCount_ = split.sheets.size();
+    split.sheets =
+        cutMaskedSheets(input_, soup_, split.sheets, longestSide() / settings_.resolution * soup_.unitsPerMetre);
+    if (split.sheets.empty() && split.solid.empty())
+      throw BadInput(input_.label, "", "is cut away entirely by its alpha mask");
     if (!split.sheets.empty()) surfaces_.sheets.emplace(sheetHierarchy_.emplace(soup_, std::move(split.sheets)));
     if (split.solid.empty()) return;
     surfaces_.solid.emplace(solidHierarchy_.emplace(soup_, std::move(split.solid)));
@@ -176,7 +181,7 @@ private:
 
   void fillStats(BakeResult& result) const {
     BakeStats& stats = result.stats;
-    stats.triangles = soup_.triangles.size();
+    stats.triangles = soup_.firstPiece();
     stats.degenerateTriangles = soup_.degenerateCount;
     stats.openEdges = topology_.openEdges;
     stats.nonManifoldEdges = topology_.nonManifoldEdges;

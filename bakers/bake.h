@@ -12,18 +12,18 @@
 namespace brickfield {
 
 struct BakeSettings {
-  int resolution = 128;                 ///< voxels along the longest side of the mesh's box, 8 to 1024
-  int bits = 8;                         ///< 8 or 16
-  int mips = 3;                         ///< levels, 1 to 4; fewer where a level would have less than one brick
+  int resolution = 128; ///< voxels along the longest side of the mesh's box, 8 to 1024
+  int bits = 8;         ///< 8 or 16
+  int mips = 3;         ///< levels, 1 to 4; fewer where a level would have less than one brick
   SignMethod sign = SignMethod::Auto;
-  float thickness = 0;                  ///< metres of object space for two-sided sheets; 0: one voxel
+  float thickness = 0; ///< metres of object space for two-sided sheets; 0: one voxel
   bool attributes = true;
-  int threads = 0;                      ///< 0: all
+  int threads = 0; ///< 0: all
 };
 
 /// What is baked: the primitives of one mesh as they stand in object space (deformed ones: as posed).
 struct BakeInput {
-  std::string label;                    ///< for messages and progress
+  std::string label; ///< for messages and progress
   const Scene* scene = nullptr;
   std::vector<const Primitive*> primitives;
   std::vector<std::vector<glm::vec3>> positionsObject; ///< one array a primitive
@@ -37,9 +37,9 @@ struct BakeStats {
   std::uint64_t degenerateTriangles = 0;
   std::uint64_t openEdges = 0;
   std::uint64_t nonManifoldEdges = 0;
-  std::uint64_t sheetTriangles = 0;     ///< triangles with open space on both sides, thickened
-  std::string sign;                     ///< how the sign was decided
-  std::uint64_t bricks = 0;             ///< of all levels
+  std::uint64_t sheetTriangles = 0; ///< triangles with open space on both sides, thickened
+  std::string sign;                 ///< how the sign was decided
+  std::uint64_t bricks = 0;         ///< of all levels
   std::uint64_t bytes = 0;
   double seconds = 0;
 };

@@ -31,6 +31,11 @@ struct TriangleSoup {
   double reach = 0;                            ///< no corner is farther from zero; soup space
 
   glm::dvec3 soupFromObject(glm::dvec3 pointObject) const { return (pointObject - centerObject) * unitsPerMetre; }
+  /// Barycentric corners, in the triangle that triangleIndices names, of the last triangles: those that masks were cut
+  /// into.
+  std::vector<std::array<glm::vec2, 3>> pieceBarycentrics;
+
+  std::size_t firstPiece() const { return triangles.size() - pieceBarycentrics.size(); }
   std::array<glm::dvec3, 3> corners(std::uint32_t triangle) const {
     const TriangleVertices& v = triangles[triangle];
     return {positions[v[0]], positions[v[1]], positions[v[2]]};

@@ -143,13 +143,19 @@ TEST(BakeField, EmptyCellsAreSafeAndNeverTooFar) {
     EXPECT_GT(content.boundVoxels(), kTouchVoxels - 0.1f); // else it ought to be stored
     const auto x = static_cast<std::size_t>(level.brickCounts.x), y = static_cast<std::size_t>(level.brickCounts.y);
     const glm::dvec3 corner = static_cast<double>(kBrickCells) * glm::dvec3(cell % x, cell / x % y, cell / (x * y));
-    for (int i = 0; i < 24; ++i) {
-      glm::dvec3 offset(share(random), share(random), share(random));
-      if (i < 8) offset = glm::dvec3(i & 1, i >> 1 & 1, i >> 2 & 1) * static_cast<double>(kBrickCells);
-      const glm::dvec3 point =
-          glm::dvec3(field.originObject) + static_cast<double>(level.voxelSizeObject) * (corner + offset);
-      const double truth = MeshDistance(hierarchy).closest(soup.soupFromObject(point)).distance / soup.unitsPerMetre /
-                           level.voxelSizeObject;
+    for (int i = 0; i < 12; ++i) {
+      // From a random point of the cell to the surface and back, which leads to where the two are closest.
+      glm::dvec3 inCell = corner + glm::dvec3(share(random), share(random), share(random));
+      double truth = 0;
+      for (int step = 0; step < 6; ++step) {
+        const glm::dvec3 point = glm::dvec3(field.originObject) + static_cast<double>(level.voxelSizeObject) * inCell;
+        const ClosestTriangle closest = MeshDistance(hierarchy).closest(soup.soupFromObject(point));
+        truth = closest.distance / soup.unitsPerMetre / level.voxelSizeObject;
+        const glm::dvec3 onSurface = closest.on.point / soup.unitsPerMetre + soup.centerObject;
+        const glm::dvec3 voxels =
+            (onSurface - glm::dvec3(field.originObject)) / static_cast<double>(level.voxelSizeObject);
+        inCell = glm::clamp(voxels, corner, corner + static_cast<double>(kBrickCells));
+      }
       ASSERT_GE(truth + 1e-6, static_cast<double>(content.boundVoxels()));
       tightest = std::min(tightest, truth - static_cast<double>(content.boundVoxels()));
     }

@@ -83,3 +83,31 @@ TEST(BakeOpen, EmptyCellsLeadOverNoMembrane) {
     EXPECT_LE(content.boundVoxels(), toDisk + 2.5f); // the disk is found to within the winding number's error
   }
 }
+
+TEST(BakeOpen, BricksAgreeInTheSamplesThatTheyShare) {
+  for (const char* name : {"utah_teapot_1k.glb", "suzanne.glb", "stanford_bunny_69k.glb"}) {
+    BRICKFIELD_NEEDS_DATA(name);
+    BakeSettings settings;
+    settings.resolution = 48;
+    settings.attributes = false;
+    const BrickField field = bakeField(FileCase(name).input(), settings).field;
+    const BrickLevel& level = field.levels[0];
+    std::size_t shared = 0, differ = 0;
+    glm::ivec3 brick;
+    for (brick.z = 0; brick.z < level.brickCounts.z; ++brick.z)
+      for (brick.y = 0; brick.y < level.brickCounts.y; ++brick.y)
+        for (brick.x = 0; brick.x + 1 < level.brickCounts.x; ++brick.x) {
+          const IndirectionCell here{level.indirection[level.cellIndex(brick)]};
+          const IndirectionCell there{level.indirection[level.cellIndex(brick + glm::ivec3(1, 0, 0))]};
+          for (int i = 0; i < 64; ++i) {
+            if (here.isEmpty() || there.isEmpty()) continue;
+            const float left = storedDistance(level, here.brickIndex(), {7, i % 8, i / 8});
+            const float right = storedDistance(level, there.brickIndex(), {0, i % 8, i / 8});
+            ++shared;
+            differ += (left < 0) != (right < 0) || std::abs(left - right) > 0.07f; // two codes
+          }
+        }
+    EXPECT_GT(shared, 1000u);
+    EXPECT_EQ(differ, 0u) << name;
+  }
+}

@@ -103,6 +103,54 @@ TEST(InsideTest, ParityCountsSharedEdgesAndCornersOnce) {
     EXPECT_FALSE(tested.isInsideObject(point));
 }
 
+TEST(InsideTest, ParityCountsVerticesOnEveryAxisOnce) {
+  MeshCase
+      boxes; // a cube of cubes: shells of eight unit cubes, without the walls between them, so all faces have a corner,
+  for (int axis = 0; axis < 3; ++axis) // edges and diagonals where rays from lattice points meet them
+    for (const int side : {-1, 1})
+      for (int u = -1; u < 1; ++u)
+        for (int v = -1; v < 1; ++v) {
+          const auto corner = [&](int du, int dv) {
+            glm::vec3 p(0.0f);
+            p[axis] = static_cast<float>(side), p[(axis + 1) % 3] = static_cast<float>(u + du);
+            p[(axis + 2) % 3] = static_cast<float>(v + dv);
+            return p;
+          };
+          if (side > 0)
+            boxes.addQuad(corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1));
+          else
+            boxes.addQuad(corner(0, 0), corner(0, 1), corner(1, 1), corner(1, 0));
+        }
+  const Tested tested(boxes.soup(), SignMethod::Parity);
+  ASSERT_TRUE(tested.topology.isClosed());
+  for (int z = -3; z <= 3; ++z)
+    for (int y = -3; y <= 3; ++y)
+      for (int x = -3; x <= 3; ++x) {
+        const glm::dvec3 point = glm::dvec3(x, y, z) * 0.5;
+        const double reach = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+        if (reach == 1) continue; // on the surface
+        EXPECT_EQ(tested.isInsideObject(point), reach < 1) << x << " " << y << " " << z;
+      }
+}
+
+TEST(InsideTest, PseudonormalsAreRightBesideSharpEdges) {
+  MeshCase
+      wedge; // a prism with an edge of 11 degrees at x = 1: beside it, one face's normal alone tells the wrong side
+  const glm::vec3 edge0(1, 0, -1), edge1(1, 0, 1), top0(-1, 0.2f, -1), top1(-1, 0.2f, 1), low0(-1, -0.2f, -1),
+      low1(-1, -0.2f, 1);
+  wedge.addQuad(top0, top1, edge1, edge0);
+  wedge.addQuad(low0, edge0, edge1, low1);
+  wedge.addQuad(low0, low1, top1, top0);
+  wedge.addTriangle(low1, edge1, top1);
+  wedge.addTriangle(low0, top0, edge0);
+  const Tested tested(wedge.soup(), SignMethod::Pseudonormal);
+  for (const double z : {-0.5, 0.3}) // beside the edge, and beside its corners
+    for (const double y : {-0.3, -0.05, 0.0, 0.05, 0.3}) EXPECT_FALSE(tested.isInsideObject({1.02, y, z})) << y;
+  for (const double z : {-1.1, 1.2})
+    for (const double y : {-0.3, -0.05, 0.05, 0.3}) EXPECT_FALSE(tested.isInsideObject({1.02, y, z})) << y;
+  EXPECT_TRUE(tested.isInsideObject({0.9, 0.001, 0.2}));
+}
+
 TEST(InsideTest, PseudonormalRefusesWhatIsNoClosedManifold) {
   MeshCase open;
   open.addSphere({0, 0, 0}, 1, 8, 16, 4);

@@ -98,6 +98,17 @@ TEST(Sheets, LargeTriangleThatIsOneInPartIsBoth) {
   EXPECT_EQ(result.solid.size(), 12u);
 }
 
+TEST(Sheets, SheetThatAnotherOneHidAtFirstIsFound) {
+  MeshCase pair; // a small quad high above a floor that faces down: between them there is almost a whole turn, at first
+  pair.addQuad({-0.25f, 4, -0.25f}, {-0.25f, 4, 0.25f}, {0.25f, 4, 0.25f}, {0.25f, 4, -0.25f});
+  pair.addQuad({-20, 0, -20}, {20, 0, -20}, {20, 0, 20}, {-20, 0, 20});
+  const TriangleSoup soup = pair.soup();
+  EXPECT_GT(bruteWinding(soup, soup.soupFromObject({0, 3.8, 0})), 0.6);
+  const SolidsAndSheets result = split(soup, 40.0 / 128);
+  EXPECT_EQ(result.solid.size(), 0u);
+  EXPECT_EQ(result.sheets.size(), 4u);
+}
+
 TEST(Sheets, BunnyWithHolesKeepsItsSkin) {
   BRICKFIELD_NEEDS_DATA("stanford_bunny_69k.glb");
   const FileCase file("stanford_bunny_69k.glb");
