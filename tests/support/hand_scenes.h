@@ -1,0 +1,30 @@
+// Small scenes built by hand, without files: what render tests need and no data file offers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace brickfield::test {
+
+/// Closed meshes of unit-like size around the origin, with smooth normals.
+Mesh makeTorusMesh(float majorRadius, float minorRadius, int segments, int sides);
+Mesh makeSphereMesh(float radius, int rings, int segments);
+Mesh makeBoxMesh(glm::vec3 halfExtent);
+
+/// A scene with one mesh and one node, named as the mesh.
+Scene makeTorusAlone();
+Scene makeTransformedTorus(const glm::mat4& worldFromObject);
+/// Node "Sphere", which pierces node "Torus".
+Scene makeInterpenetration();
+/// Forty spheres, boxes and tori that overlap in all ways; every second one is named "Sdf...".
+Scene makeCrowd();
+
+struct AffineCase {
+  std::string name;
+  glm::mat4 worldFromObject;
+};
+std::vector<AffineCase> affineCases();
+
+} // namespace brickfield::test
