@@ -21,6 +21,21 @@ BrickAtlas::BrickAtlas()
       levelTable_("sdf_levels", sizeof(shared::SdfLevel) * 64),
       indirection_("indirection", sizeof(std::uint32_t) * 4096) {}
 
+void BrickAtlas::reserve(const std::vector<BrickField>& fields) {
+  std::uint32_t bricks8 = 0, bricks16 = 0, bricksWithAttributes = 0;
+  std::size_t cells = 0;
+  for (const BrickField& field : fields)
+    for (const BrickLevel& level : field.levels) {
+      (level.format == DistanceFormat::R16Snorm ? bricks16 : bricks8) += level.brickCount();
+      if (!level.baseColor.empty()) bricksWithAttributes += level.brickCount();
+      cells += level.indirection.size() * (level.baseColor.empty() ? 1 : 2);
+    }
+  distances8_.fit(bricks8);
+  distances16_.fit(bricks16);
+  attributes_.fit(bricksWithAttributes);
+  indirection_.growTo((cells_.end() + cells) * sizeof(std::uint32_t));
+}
+
 std::uint32_t BrickAtlas::addCells(const BrickLevel& level, std::uint32_t firstSlot, Allocation& held) {
   std::vector<std::uint32_t> cells = level.indirection;
   for (std::uint32_t& cell : cells)

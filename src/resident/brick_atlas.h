@@ -27,6 +27,8 @@ public:
   BrickAtlas();
 
   using FieldId = std::uint32_t;
+  /// Makes room for these fields at once, so that adding them moves nothing.
+  void reserve(const std::vector<BrickField>& fields);
   /// Uploads a field that validateField accepts.
   /// error Failure: out of slots or memory
   FieldId add(const BrickField& field);

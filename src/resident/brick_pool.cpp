@@ -25,8 +25,8 @@ BrickPool::BrickPool(std::vector<Channel> channels) : channels_(std::move(channe
 
 std::uint32_t BrickPool::allocate(std::uint32_t brickCount) { return slots_.allocate(brickCount); }
 
-void BrickPool::fit() {
-  const int wanted = static_cast<int>(ceilDivide(slots_.end(), kSlotsPerLayer));
+void BrickPool::fit(std::uint32_t moreBricks) {
+  const int wanted = static_cast<int>(ceilDivide(slots_.end() + moreBricks, kSlotsPerLayer));
   if (wanted <= layers_) return;
   GLint largest = 0;
   glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
@@ -34,7 +34,7 @@ void BrickPool::fit() {
   const int most = largest / kBrickSamples;
   if (wanted > most || kSlotsAcross * kBrickSamples > largest)
     throw Failure(fmt::format("{}: {} bricks are more than this device's 3D textures hold ({})", channels_[0].label,
-                              slots_.end(), static_cast<std::int64_t>(most) * kSlotsPerLayer));
+                              slots_.end() + moreBricks, static_cast<std::int64_t>(most) * kSlotsPerLayer));
   const int layers = std::min(most, std::max(wanted, layers_ + layers_ / 2));
   const int side = kSlotsAcross * kBrickSamples;
   for (std::size_t i = 0; i < channels_.size(); ++i) {

@@ -23,9 +23,9 @@ public:
   std::uint32_t allocate(std::uint32_t brickCount);
   void release(std::uint32_t firstSlot, std::uint32_t brickCount) { slots_.release(firstSlot, brickCount); }
 
-  /// Makes the textures large enough for every slot handed out so far.
+  /// Makes the textures large enough for every slot handed out so far, and for this many more.
   /// error Failure: larger than the device's 3D textures
-  void fit();
+  void fit(std::uint32_t moreBricks = 0);
   /// Bricks of one channel, 512 texels each, x fastest, into consecutive slots. After fit().
   void upload(std::size_t channel, std::uint32_t firstSlot, std::span<const std::byte> bricks);
 

@@ -42,6 +42,7 @@ bool isDoubleSidedNode(const Scene& scene, int mesh) {
 ResidentScene::ResidentScene(const Scene& scene, const SceneFields& fields)
     : meshes_(scene), materials_(scene), fieldOfNode_(fields.fieldOfNode) {
   fieldOfNode_.resize(scene.nodes.size(), -1);
+  atlas_.reserve(fields.fields);
   for (const BrickField& field : fields.fields) fieldIds_.push_back(atlas_.add(field));
 }
 
