@@ -25,8 +25,9 @@ void main() {
   if (vertex >= count) return;
   MeshVertex source = sources[deformVertices.x + vertex];
   vec3 position = source.position.xyz;
-  vec3 normal = directionFromOctahedral(unpackSnorm2x16(floatBitsToUint(source.position.w)));
-  vec3 tangent = directionFromOctahedral(unpackSnorm2x16(source.codes.x));
+  vec3 sourceNormal = directionFromOctahedral(unpackSnorm2x16(floatBitsToUint(source.position.w)));
+  vec3 sourceTangent = directionFromOctahedral(unpackSnorm2x16(source.codes.x));
+  vec3 normal = sourceNormal, tangent = sourceTangent;
 
   for (uint target = 0u; target < deformSources.z; ++target) {
     float weight = morphWeights[deformWeights.x + target];
@@ -45,12 +46,12 @@ void main() {
                  worldFromBind[deformSources.w + influenceWords[word + i]];
     mat3 linear = mat3(blended);
     position = (blended * vec4(position, 1.0)).xyz;
+    // The cofactor matrix alone, no flip: a mirroring joint turns the winding too, and normals stay on its side.
     normal = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1])) * normal;
-    if (determinant(linear) < 0.0) normal = -normal;
     tangent = linear * tangent;
   }
-  normal = dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0, 1.0, 0.0);
-  tangent = dot(tangent, tangent) > 0.0 ? normalize(tangent) : vec3(1.0, 0.0, 0.0);
+  normal = dot(normal, normal) > 0.0 ? normalize(normal) : sourceNormal;
+  tangent = dot(tangent, tangent) > 0.0 ? normalize(tangent) : sourceTangent;
 
   MeshVertex result = source;
   result.position = vec4(position, uintBitsToFloat(packSnorm2x16(octahedralFromDirection(normal))));
