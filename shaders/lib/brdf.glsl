@@ -1,8 +1,10 @@
 // Metallic-roughness shading as glTF 2.0 appendix B defines it; twin of scene/brdf.h.
 const float kPi = 3.14159265;
 
-// Trowbridge and Reitz 1975 (GGX; Walter et al. 2007).
+// Trowbridge and Reitz 1975 (GGX; Walter et al. 2007). Zero below the horizon, where a viewer from below puts the
+// half vector.
 float distributionGgx(float nDotH, float alpha) {
+  if (nDotH <= 0.0) return 0.0;
   float a2 = alpha * alpha;
   float d = nDotH * nDotH * (a2 - 1.0) + 1.0;
   return a2 / (kPi * d * d);
@@ -45,6 +47,6 @@ vec3 reflectedShare(Surface surface, vec3 normal, vec3 toViewer, vec3 toLight) {
   vec3 f0 = mix(vec3(0.04), surface.baseColor, surface.metallic);
   vec3 fresnel = fresnelSchlick(f0, vDotH);
   vec3 diffuse = (1.0 - fresnel) * mix(surface.baseColor, vec3(0.0), surface.metallic) / kPi;
-  vec3 specular = fresnel * distributionGgx(clamp(dot(normal, halfway), 0.0, 1.0), alpha) * visibilitySmith(nDotL, nDotV, alpha);
+  vec3 specular = fresnel * distributionGgx(min(dot(normal, halfway), 1.0), alpha) * visibilitySmith(nDotL, nDotV, alpha);
   return (diffuse + specular) * nDotL;
 }
