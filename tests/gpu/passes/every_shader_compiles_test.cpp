@@ -1,0 +1,114 @@
+// Every stage in every variant that the passes ask for compiles and links, and no shader file lies around unused.
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "gpu/shader_library.h"
+#include "gpu/shader_source.h"
+#include "tests/support/gl_fixture.h"
+
+namespace brickfield::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+const fs::path kSource = BRICKFIELD_SOURCE_DIR;
+
+const std::vector<ProgramSource>& programs() {
+  static const auto compute = [](const std::string& label, const std::string& path) {
+    return ProgramSource{label, {{GL_COMPUTE_SHADER, path}}, {}, {}};
+  };
+  static const auto draw = [](const std::string& label, const std::string& vertex, const std::string& fragment,
+                              std::map<std::string, std::string> defines) {
+    return ProgramSource{label, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}, std::move(defines), {}};
+  };
+  static const std::vector<ProgramSource> table{
+      compute("deform", "passes/deform.comp.glsl"),
+      compute("sdf_cull", "passes/sdf_cull.comp.glsl"),
+      draw("mesh", "passes/mesh.vert.glsl", "passes/mesh.frag.glsl", {}),
+      draw("sdf_box", "passes/sdf_box.vert.glsl", "passes/sdf_box.frag.glsl", {}),
+      draw("sdf_box_counting", "passes/sdf_box.vert.glsl", "passes/sdf_box.frag.glsl", {{"COUNTERS_ON", "1"}}),
+      draw("box_overdraw", "passes/sdf_box.vert.glsl", "debug/box_overdraw.frag.glsl", {}),
+      compute("environment_prefilter", "passes/environment_prefilter.comp.glsl"),
+      compute("environment_brdf", "passes/environment_brdf.comp.glsl"),
+      compute("lighting", "passes/lighting.comp.glsl"),
+      compute("tone", "passes/tone.comp.glsl"),
+      compute("debug_view", "debug/debug_view.comp.glsl"),
+  };
+  return table;
+}
+
+std::string textOf(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+// What the first group of a pattern matches in all files with an ending below a folder.
+Names matches(const fs::path& folder, const std::string& ending, const std::regex& pattern) {
+  Names found;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file() || entry.path().extension() != ending) continue;
+    const std::string text = textOf(entry.path());
+    for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match)
+      found.insert((*match)[1]);
+  }
+  return found;
+}
+
+bool isStage(const std::string& path) {
+  return path.ends_with(".vert.glsl") || path.ends_with(".frag.glsl") || path.ends_with(".comp.glsl") ||
+         path.ends_with(".geom.glsl") || path.ends_with(".tesc.glsl") || path.ends_with(".tese.glsl");
+}
+
+Names stagesOfTable() {
+  Names stages;
+  for (const ProgramSource& program : programs())
+    for (const auto& [stage, path] : program.stages) stages.insert(path);
+  return stages;
+}
+
+class EveryShader : public GlTest {};
+
+TEST_F(EveryShader, CompilesAndLinksInEveryVariant) {
+  ShaderLibrary library(kSource / "shaders");
+  for (const ProgramSource& source : programs()) EXPECT_NO_THROW(library.load(source)) << source.label;
+  EXPECT_EQ(library.programCount(), programs().size()) << "two rows of the table are the same program";
+}
+
+TEST_F(EveryShader, IsInTheTable) {
+  Names stages;
+  for (const std::string& path : allShaderFiles(kSource / "shaders"))
+    if (isStage(path)) stages.insert(path);
+  EXPECT_EQ(stages, stagesOfTable());
+}
+
+TEST_F(EveryShader, IsLoadedByAPass) {
+  const std::regex path("\"([a-z_/]+\\.(?:vert|frag|comp)\\.glsl)\"");
+  EXPECT_EQ(matches(kSource / "src/passes", ".cpp", path), stagesOfTable());
+}
+
+TEST_F(EveryShader, VariantIsInTheTable) {
+  // Switches of shaders are the conditions that are no include guards and not the bridge's.
+  Names switches =
+      matches(kSource / "shaders", ".glsl", std::regex("#\\s*(?:ifdef|ifndef|if defined\\()\\s*([A-Z_0-9]+)"));
+  Names defined;
+  for (const ProgramSource& source : programs())
+    for (const auto& [name, value] : source.defines) defined.insert(name);
+  EXPECT_EQ(switches, defined);
+  for (const std::string& name : matches(kSource / "src/passes", ".cpp", std::regex("\\{\"([A-Z_0-9]+)\", \"")))
+    EXPECT_TRUE(defined.count(name)) << name;
+}
+
+TEST_F(EveryShader, LibraryFileIsIncludedBySomeStage) {
+  Names included;
+  for (const std::string& stage : stagesOfTable())
+    for (const std::string& file : assembleShader(kSource / "shaders", stage, {}).files) included.insert(file);
+  for (const std::string& path : allShaderFiles(kSource / "shaders"))
+    EXPECT_TRUE(included.count(path)) << path << " is used by nobody";
+}
+
+} // namespace
+} // namespace brickfield::test
