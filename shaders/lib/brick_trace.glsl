@@ -55,15 +55,20 @@ float firstCrossing(vec4 c, float end, float s) {
     float high = stretch == 0 ? extrema.x : stretch == 1 ? extrema.y : end;
     if (cubicAt(c, high) * s < 0.0) {
       float fLow = cubicAt(c, low), fHigh = cubicAt(c, high);
-      // Illinois: regula falsi that cannot stall; six rounds reach float precision on a monotonic cubic.
-      float middle = high;
+      // Illinois: regula falsi that halves the value of an end kept twice, and so cannot stall; six rounds reach float
+      // precision on a monotonic cubic.
+      float middle = high, kept = 0.0;
       for (int round = 0; round < 6; ++round) {
         middle = clamp(low + (high - low) * fLow / (fLow - fHigh), low, high);
         float f = cubicAt(c, middle);
         if (f * s < 0.0) {
-          high = middle, fHigh = f, fLow *= 0.5;
+          high = middle, fHigh = f;
+          if (kept < 0.0) fLow *= 0.5;
+          kept = -1.0;
         } else {
-          low = middle, fLow = f, fHigh *= 0.5;
+          low = middle, fLow = f;
+          if (kept > 0.0) fHigh *= 0.5;
+          kept = 1.0;
         }
       }
       return middle; // the last estimate: the bracket's far end may not have moved
