@@ -11,12 +11,21 @@
 
 namespace brickfield {
 
+/// How inside and outside are told apart:
+///   Auto          closed components are solid, inside out or not; open ones behind their faces, where they wrap a
+///                 point by at least half (membranes close holes); what encloses nothing is a sheet
+///   Winding       inside where the winding number of all triangles is at least one half, of either sign; no sheets
+///   Parity        inside where rays cross an odd number of triangles; no sheets
+///   Pseudonormal  by the closest feature's normal; closed manifolds only
+///   TwoSided      everything is a sheet
+/// A sheet is the slab of points up to half a thickness away, at least 0.5625 voxel of its level: thinner, it could
+/// fall between two samples. Masked sheets are cut along their masks.
 struct BakeSettings {
-  int resolution = 128; ///< voxels along the longest side of the mesh's box, 8 to 1024
+  int resolution = 128; ///< voxels along the longest side of the surface's box, sheets' thickness included; 8 to 1024
   int bits = 8;         ///< 8 or 16
   int mips = 3;         ///< levels, 1 to 4; fewer where a level would have less than one brick
   SignMethod sign = SignMethod::Auto;
-  float thickness = 0; ///< metres of object space for two-sided sheets; 0: one voxel
+  float thickness = 0; ///< of sheets, metres of object space; 0: as thin as can be shown, 1.125 voxels
   bool attributes = true;
   int threads = 0; ///< 0: all
 };
@@ -38,8 +47,8 @@ struct BakeStats {
   std::uint64_t openEdges = 0;
   std::uint64_t nonManifoldEdges = 0;
   std::uint64_t sheetTriangles = 0; ///< triangles with open space on both sides, thickened
-  std::string sign;                 ///< how the sign was decided
-  std::uint64_t bricks = 0;         ///< of all levels
+  std::string sign;         ///< how the sign was decided; "cached" where only bricks, bytes and seconds are known
+  std::uint64_t bricks = 0; ///< of all levels
   std::uint64_t bytes = 0;
   double seconds = 0;
 };
@@ -49,14 +58,24 @@ struct BakeResult {
   BakeStats stats;
 };
 
-/// error BadInput: no triangle of positive area; settings out of range; Cancelled
+/// Bakes all levels.
+///
+/// progress  stages by level, in bricks
+/// returns   the same bytes on any number of threads
+/// error     BadInput that names input.label: no triangle of positive area, nothing left by its mask, indices out of
+/// range,
+///           positions that are not finite or too far from the origin, a level of more than 8 GiB, Pseudonormal on what
+///           is no closed manifold; BadInput that names the setting: out of range; Cancelled
+/// cost      on one core about 1 us a sample near the surface; an open mesh up to three times that
+/// proved by tests/bake/bakers
 BakeResult bakeField(const BakeInput& input, const BakeSettings& settings, const Progress& progress = {});
 
 /// Hash of all that decides the bytes of a bake: geometry, materials and textures used, settings, baker version.
 Hash128 bakeHash(const BakeInput& input, const BakeSettings& settings);
 
 /// Reads OUT of the cache folder by content hash or bakes and stores it there. A damaged entry is baked anew.
-/// cacheFolder empty: no cache. Safe against several processes at once.
+/// cacheFolder empty: no cache; made if missing; one that cannot be written caches nothing. Safe against several
+/// processes at once.
 BakeResult bakeCached(const BakeInput& input, const BakeSettings& settings, const std::filesystem::path& cacheFolder,
                       const Progress& progress = {}, bool* wasCached = nullptr);
 

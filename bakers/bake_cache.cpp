@@ -28,9 +28,9 @@ void addTexture(Hasher& hasher, const Scene& scene, const TextureSlot& slot) {
   hasher.add(image.size.x).add(image.size.y).addArray(image.rgba);
 }
 
-void addMaterial(Hasher& hasher, const Scene& scene, const Material& material, bool attributes) {
-  hasher.add(material.alphaMode); // decides what counts as a sheet
-  if (!attributes) return;
+// All of it even without attributes: alpha mode and mask decide what counts as a sheet and how it is cut.
+void addMaterial(Hasher& hasher, const Scene& scene, const Material& material) {
+  hasher.add(material.alphaMode);
   for (int i = 0; i < 4; ++i) hasher.add(material.baseColor[i]);
   for (int i = 0; i < 3; ++i) hasher.add(material.emission[i]);
   hasher.add(material.metallic).add(material.roughness).add(material.occlusionStrength);
@@ -72,8 +72,8 @@ Hash128 bakeHash(const BakeInput& input, const BakeSettings& settings) {
   for (std::size_t i = 0; i < input.primitives.size(); ++i) {
     const Primitive& primitive = *input.primitives[i];
     hasher.addArray(primitive.indices).addArray(input.positionsObject[i]);
-    if (settings.attributes) hasher.addArray(primitive.uvs[0]).addArray(primitive.uvs[1]).addArray(primitive.colors);
-    addMaterial(hasher, *input.scene, materialOf(*input.scene, primitive), settings.attributes);
+    hasher.addArray(primitive.uvs[0]).addArray(primitive.uvs[1]).addArray(primitive.colors);
+    addMaterial(hasher, *input.scene, materialOf(*input.scene, primitive));
   }
   return hasher.finish();
 }

@@ -140,6 +140,13 @@ TEST(BakeCache, HashHangsOnAllThatDecidesTheBytes) {
   expectOther("sign", [](MeshCase&, BakeSettings& s) { s.sign = SignMethod::TwoSided; });
   expectOther("thickness", [](MeshCase&, BakeSettings& s) { s.thickness = 0.1f; });
   expectOther("attributes", [](MeshCase&, BakeSettings& s) { s.attributes = false; });
+  BakeSettings bare = smallSettings();
+  bare.attributes = false;
+  MeshCase masked = ball();
+  masked.material().alphaMode = AlphaMode::Mask;
+  const Hash128 before = bakeHash(masked.input(), bare);
+  masked.scene.images[0].rgba[3] = 7;
+  EXPECT_NE(before, bakeHash(masked.input(), bare)) << "masks cut the geometry, with attributes or without";
   BakeSettings threads = smallSettings();
   threads.threads = 7;
   EXPECT_EQ(plain, bakeHash(ball().input(), threads)) << "threads do not change the bytes";

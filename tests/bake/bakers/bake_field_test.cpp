@@ -125,13 +125,14 @@ TEST(BakeField, RealMeshesAgreeWithBruteForceInDistanceAndSign) {
   }
 }
 
-TEST(BakeField, EmptyCellsAreSafeAndNeverTooFar) {
-  BRICKFIELD_NEEDS_DATA("stanford_dragon_11k.glb");
-  const FileCase file("stanford_dragon_11k.glb");
-  BakeSettings settings = settingsOf(96, 8);
+namespace {
+
+/// Compares the bound of every empty cell with the least distance that is found from it to the surface.
+void expectSafeBounds(const BakeInput& input, int resolution) {
+  BakeSettings settings = settingsOf(resolution, 8);
   settings.sign = SignMethod::Winding;
-  const BrickField field = bakeField(file.input(), settings).field;
-  const TriangleSoup soup = gatherTriangles(file.input());
+  const BrickField field = bakeField(input, settings).field;
+  const TriangleSoup soup = gatherTriangles(input);
   const MeshHierarchy hierarchy(soup, allTriangles(soup));
   const BrickLevel& level = field.levels[0];
   std::mt19937 random(5);
@@ -161,6 +162,28 @@ TEST(BakeField, EmptyCellsAreSafeAndNeverTooFar) {
     }
   }
   EXPECT_LT(tightest, 0.3); // the bound is of use
+}
+
+} // namespace
+
+TEST(BakeField, EmptyCellsOfARealMeshAreSafeAndNeverTooFar) {
+  BRICKFIELD_NEEDS_DATA("stanford_dragon_11k.glb");
+  expectSafeBounds(FileCase("stanford_dragon_11k.glb").input(), 96);
+}
+
+TEST(BakeField, BrickBesideASpikeIsStored) {
+  MeshCase grains; // two at the ends make voxels of 1 with sample 0 at -1; one stands beside the brick that begins at x
+                   // = 27,
+  grains.addBox(glm::vec3(0), glm::vec3(0.01f)); // opposite the middle of a voxel's face: no sample is near it
+  grains.addBox(glm::vec3(63.99f), glm::vec3(64));
+  const float distance = 0.98f;
+  grains.addBox({27 - distance - 0.01f, 30.495f, 30.495f}, {27 - distance, 30.505f, 30.505f});
+  const BrickField field = bakeField(grains.input(), settingsOf(64, 8)).field;
+  const BrickLevel& level = field.levels[0];
+  ASSERT_EQ(level.voxelSizeObject, 1.0f);
+  for (const int x : {3, 4})
+    EXPECT_FALSE(IndirectionCell{level.indirection[level.cellIndex({x, 4, 4})]}.isEmpty()) << x;
+  EXPECT_TRUE(IndirectionCell{level.indirection[level.cellIndex({5, 4, 4})]}.isEmpty());
 }
 
 TEST(BakeField, CoarsestLevelIsCompleteAndUnclamped) {
