@@ -45,6 +45,10 @@ PackedAttributes AttributeBaker::at(std::uint32_t triangle, const PointOnTriangl
   return packed;
 }
 
+bool AttributeBaker::isSingleSided(std::uint32_t triangle) const {
+  return !materialOf(*input_->scene, *input_->primitives[soup_->primitiveIndices[triangle]]).doubleSided;
+}
+
 PackedAttributes AttributeBaker::atParent(std::uint32_t triangle, glm::vec2 barycentric, float footprintMetres) const {
   const std::size_t primitiveIndex = soup_->primitiveIndices[triangle], number = soup_->triangleIndices[triangle];
   if (constants_[primitiveIndex]) return *constants_[primitiveIndex];
@@ -67,7 +71,11 @@ PackedAttributes AttributeBaker::atParent(std::uint32_t triangle, glm::vec2 bary
 
 PackedAttributes AttributeBaker::sample(const Material& material, const MaterialPoint& point) const {
   const MaterialSample value = sampler_.sampleMaterial(material, point);
-  const float alpha = material.alphaMode == AlphaMode::Opaque ? 1.0f : value.baseColor.w;
+  // Coverage of one half is where the material cuts, whatever its cutoff.
+  const float halved = material.alphaMode == AlphaMode::Mask && material.alphaCutoff > 0.0f
+                           ? std::min(1.0f, 0.5f * value.baseColor.w / material.alphaCutoff)
+                           : value.baseColor.w;
+  const float alpha = material.alphaMode == AlphaMode::Opaque ? 1.0f : halved;
   PackedAttributes packed;
   packed.baseColor = packRgba8(glm::vec4(srgbFromLinear(glm::clamp(glm::vec3(value.baseColor), 0.0f, 1.0f)), alpha));
   packed.material = packRgba8({value.metallic, value.roughness, value.occlusion, material.unlit ? 1.0f : 0.0f});

@@ -30,6 +30,9 @@ public:
   /// cost        a table look-up where the primitive has neither textures nor vertex colours
   PackedAttributes at(std::uint32_t triangle, const PointOnTriangle& on, float voxelMetres) const;
 
+  /// Whether the triangle's material shows its front alone.
+  bool isSingleSided(std::uint32_t triangle) const;
+
 private:
   /// The same by weights in the triangle of the primitive.
   PackedAttributes atParent(std::uint32_t triangle, glm::vec2 barycentric, float footprintMetres) const;

@@ -22,16 +22,21 @@ constexpr float kAttributeVoxels =
 struct SignedSamples {
   std::vector<float> distances;
   std::vector<std::uint32_t> triangles;
+  std::vector<std::uint8_t> isSheet; ///< 1 where the distance is a slab's
 };
 
 SignedSamples combine(LevelSamples& level, const std::vector<std::uint8_t>& sampleInside) {
-  if (level.solidDistances.empty()) return {std::move(level.sheetDistances), std::move(level.sheetTriangles)};
-  SignedSamples result{std::move(level.solidDistances), std::move(level.solidTriangles)};
+  const std::size_t count = std::max(level.solidDistances.size(), level.sheetDistances.size());
+  if (level.solidDistances.empty())
+    return {std::move(level.sheetDistances), std::move(level.sheetTriangles), std::vector<std::uint8_t>(count, 1)};
+  SignedSamples result{std::move(level.solidDistances), std::move(level.solidTriangles),
+                       std::vector<std::uint8_t>(count, 0)};
   for (std::size_t i = 0; i < result.distances.size(); ++i) {
     if (sampleInside[i]) result.distances[i] = -result.distances[i];
     if (level.sheetDistances.empty() || level.sheetDistances[i] >= result.distances[i]) continue;
     result.distances[i] = level.sheetDistances[i];
     result.triangles[i] = level.sheetTriangles[i];
+    result.isSheet[i] = 1;
   }
   return result;
 }
@@ -79,9 +84,23 @@ private:
   }
   PackedAttributes at(std::size_t i) const {
     const std::uint32_t triangle = samples_.triangles[begin_ + i];
-    const PointOnTriangle on = closestPointOnTriangle(request_.sampling.grid.sample(brick_, sampleOfIndex(i)),
-                                                      request_.sampling.soup->corners(triangle));
-    return request_.attributes->at(triangle, on, request_.layout.voxelSizeObject);
+    const glm::dvec3 sample = request_.sampling.grid.sample(brick_, sampleOfIndex(i));
+    const auto corners = request_.sampling.soup->corners(triangle);
+    const PointOnTriangle on = closestPointOnTriangle(sample, corners);
+    PackedAttributes packed = request_.attributes->at(triangle, on, request_.layout.voxelSizeObject);
+    if (samples_.isSheet[begin_ + i] && request_.attributes->isSingleSided(triangle))
+      coverFrontOnly(packed, glm::dot(sample - on.point, frontOf(corners)));
+    return packed;
+  }
+  static glm::dvec3 frontOf(const std::array<glm::dvec3, 3>& corners) {
+    return glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  }
+  /// A slab of a single-sided material is seen from its front alone: coverage runs from 0 to 1 over the voxel around the
+  /// triangle, so that read at the slab's faces, half a voxel away or more, it is under 1/4 behind and over 3/4 in front.
+  void coverFrontOnly(PackedAttributes& packed, double beforeFront) const {
+    glm::vec4 color = unpackRgba8(packed.baseColor);
+    color.w *= static_cast<float>(std::clamp(0.5 + beforeFront / request_.sampling.grid.voxelSize, 0.0, 1.0));
+    packed.baseColor = packRgba8(color);
   }
 
   const LevelBakeRequest& request_;

@@ -13,9 +13,11 @@ struct TraceHit {
   uint brickReads;  // of them, those that read distances
 };
 
-// A trilinear field of 1-Lipschitz samples can change by √3 per voxel, so I/√3 never steps through (DESIGN.md 6.5).
 // Central differences over two voxels: wide enough to smooth the 8-bit quantum, narrow enough to keep edges.
 const float kNormalRadiusVoxels = 1.0;
+// A trilinear field of 1-Lipschitz samples can change by √3 per voxel, so I/√3 never steps through; nor does I - √3,
+// as far as the voxel's farthest corner could lie (the design's safe step).
+const float kSqrt3 = 1.7320508;
 const float kOneOverSqrt3 = 0.57735027;
 // Below this many voxels a step by distance gains less than solving the voxel outright.
 const float kSolveVoxels = 0.6;
@@ -78,6 +80,16 @@ float firstCrossing(vec4 c, float end, float s) {
   return -1.0;
 }
 
+// The voxel in which the ray is at t. Where rounding puts the point on the near side of a border that the ray has
+// crossed by then, the voxel beyond counts: a ray almost parallel to the border would else meet it again and again.
+vec3 voxelAt(vec3 origin, vec3 oneOverDirection, vec3 pointLevel, float t, vec3 lastVoxel) {
+  vec3 voxel = floor(pointLevel);
+  vec3 forwards = step(vec3(0.0), oneOverDirection);
+  vec3 exits = (voxel + forwards - origin) * oneOverDirection;
+  voxel += vec3(lessThanEqual(exits, vec3(t))) * (2.0 * forwards - 1.0);
+  return clamp(voxel, vec3(0.0), lastVoxel);
+}
+
 // t at which the ray leaves the axis-aligned cell [lower, upper] (its own space); the direction has no zero component.
 float cellExit(vec3 origin, vec3 oneOverDirection, vec3 lower, vec3 upper) {
   vec3 far = max((lower - origin) * oneOverDirection, (upper - origin) * oneOverDirection);
@@ -102,7 +114,8 @@ TraceHit traceBricks(SdfLevel level, vec3 originGrid, vec3 directionGrid, vec2 t
   while (t <= tRange.y && result.steps < maxSteps) {
     ++result.steps;
     vec3 p = clamp(origin + t * direction, vec3(0.0), bricksUpper);
-    ivec3 brick = brickOfPoint(level, p);
+    vec3 voxelLevel = voxelAt(origin, oneOverDirection, p, t, bricksUpper - 1.0);
+    ivec3 brick = ivec3(voxelLevel) / int(BRICK_CELLS);
     vec3 brickLower = vec3(brick) * float(BRICK_CELLS);
     uint cell = cellOfBrick(level.cells.x, level, brick);
     if ((cell & CELL_EMPTY) != 0u) {
@@ -113,14 +126,14 @@ TraceHit traceBricks(SdfLevel level, vec3 originGrid, vec3 directionGrid, vec2 t
       continue;
     }
     ++result.brickReads;
-    vec3 pointBrick = p - brickLower;
+    vec3 pointBrick = clamp(p - brickLower, vec3(0.0), vec3(BRICK_CELLS));
     float d = brickDistance(level, cell, pointBrick);
     if (state == 0.0 && abs(d) > kSolveVoxels) state = sign(d);
     if (d * state > kSolveVoxels) {
-      t += max(abs(d) * kOneOverSqrt3, abs(d) - 1.7320508) / speed;
+      t += max(abs(d) * kOneOverSqrt3, abs(d) - kSqrt3) / speed;
       continue;
     }
-    vec3 voxel = min(floor(pointBrick), vec3(BRICK_CELLS - 1u));
+    vec3 voxel = voxelLevel - brickLower;
     vec4 lower, upper;
     voxelCorners(level, cell, ivec3(voxel), lower, upper);
     float exitT = max(cellExit(origin, oneOverDirection, brickLower + voxel, brickLower + voxel + 1.0), t);

@@ -21,6 +21,11 @@ layout(location = 3) out vec3 emission;
 layout(location = 4) out uint id;
 layout(location = 5) out uvec2 trace;
 
+// Layers of cut surface that a ray passes; a crown of leaf cards has fewer in one line.
+const int kMostCuts = 16;
+// Beyond the hit, far enough that its own rounding is not met again.
+const float kPastCutVoxels = 1e-2;
+
 vec3 toGrid(SdfInstance instance, vec4 worldHomogeneous) {
   return vec3(dot(instance.gridFromWorld[0], worldHomogeneous), dot(instance.gridFromWorld[1], worldHomogeneous),
               dot(instance.gridFromWorld[2], worldHomogeneous));
@@ -34,7 +39,8 @@ vec2 boxRange(SdfInstance instance, vec3 originGrid, vec3 directionGrid, float t
   return vec2(max(max(lower.x, lower.y), max(lower.z, tNear)), min(upper.x, min(upper.y, upper.z)));
 }
 
-// Attributes of the surface at a point, from the level's attribute bricks; white, rough and unlit-free without them.
+// Attributes of the surface at a point, from the level's attribute bricks; without them a white, rough dielectric.
+// Coverage comes back in albedo.a.
 void surfaceAttributes(SdfLevel level, vec3 pointLevel) {
   albedo = vec4(1.0);
   material = vec4(0.0, 1.0, 1.0, 0.0);
@@ -46,7 +52,7 @@ void surfaceAttributes(SdfLevel level, vec3 pointLevel) {
   if ((slot & CELL_EMPTY) != 0u) return;
   ivec3 size = textureSize(brick_base_color, 0);
   vec3 uvw = (vec3(texelOfSlot(slot, size)) + (p - vec3(brick) * float(BRICK_CELLS)) + 0.5) / vec3(size);
-  albedo = vec4(textureLod(brick_base_color, uvw, 0.0).rgb, 1.0);
+  albedo = textureLod(brick_base_color, uvw, 0.0);
   material = textureLod(brick_material, uvw, 0.0);
   emission = textureLod(brick_emission, uvw, 0.0).rgb;
 }
@@ -65,11 +71,24 @@ void main() {
   range.y = min(range.y, tMesh * 1.0001);
 
   TraceHit hit = TraceHit(false, false, 0.0, 0u, 0u);
+  vec3 pointLevel = vec3(0.0);
   // The trace runs relative to its entry: t from far away would spend float digits on the way to the box.
   vec3 entryGrid = originGrid + range.x * directionGrid;
-  if (range.x <= range.y)
-    hit = traceBricks(level, entryGrid, directionGrid, vec2(0.0, range.y - range.x),
-                      (instance.ids.w & int(SDF_DOUBLE_SIDED)) != 0, frame.counts.z);
+  if (range.x <= range.y) {
+    bool doubleSided = (instance.ids.w & int(SDF_DOUBLE_SIDED)) != 0;
+    vec2 remaining = vec2(0.0, range.y - range.x);
+    // Where the surface is cut away (masks, backs of single-sided sheets) the ray goes on behind the hit.
+    for (int cut = 0; cut < kMostCuts; ++cut) {
+      TraceHit next = traceBricks(level, entryGrid, directionGrid, remaining, doubleSided, frame.counts.z - hit.steps);
+      hit = TraceHit(next.hit, next.backFace, next.t, hit.steps + next.steps, hit.brickReads + next.brickReads);
+      if (!hit.hit) break;
+      pointLevel = (entryGrid + hit.t * directionGrid) * level.scale.x;
+      surfaceAttributes(level, pointLevel);
+      if (albedo.a >= 0.5) break;
+      hit.hit = false;
+      remaining.x = hit.t + kPastCutVoxels / (length(directionGrid) * level.scale.x);
+    }
+  }
 #ifdef COUNTERS_ON
   atomicAdd(counters[COUNTER_FRAGMENTS], 1u);
   atomicAdd(counters[COUNTER_STEPS], hit.steps);
@@ -87,7 +106,6 @@ void main() {
   if (depth > gl_FragCoord.z * (1.0 + 1e-4)) atomicAdd(counters[COUNTER_PROMISE_BROKEN], 1u);
 #endif
 
-  vec3 pointLevel = (entryGrid + hit.t * directionGrid) * level.scale.x;
   vec3 gradientLevel = fieldGradient(level, pointLevel, kNormalRadiusVoxels);
   // Normals are carried by the transpose of gridFromWorld; this holds for shears and mirrors too.
   vec3 normalWorld = gradientLevel.x * instance.gridFromWorld[0].xyz + gradientLevel.y * instance.gridFromWorld[1].xyz +
@@ -97,7 +115,7 @@ void main() {
   vec2 normalOct = octahedralFromDirection(normalWorld);
   normal_world_oct = vec4(normalOct, normalOct);
 
-  surfaceAttributes(level, pointLevel);
+  albedo.a = 1.0;
   id = packId(uint(instance.ids.x), KIND_SDF);
   ivec3 brick = brickOfPoint(level, pointLevel);
   uint brickNumber = (uint(brick.z) * level.cells.z + uint(brick.y)) * level.cells.y + uint(brick.x);
