@@ -95,8 +95,9 @@ private:
   static glm::dvec3 frontOf(const std::array<glm::dvec3, 3>& corners) {
     return glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
   }
-  /// A slab of a single-sided material is seen from its front alone: coverage runs from 0 to 1 over the voxel around the
-  /// triangle, so that read at the slab's faces, half a voxel away or more, it is under 1/4 behind and over 3/4 in front.
+  /// A slab of a single-sided material is seen from its front alone: coverage runs from 0 to 1 over the voxel around
+  /// the triangle, so that read at the slab's faces, half a voxel away or more, it is under 1/4 behind and over 3/4 in
+  /// front.
   void coverFrontOnly(PackedAttributes& packed, double beforeFront) const {
     glm::vec4 color = unpackRgba8(packed.baseColor);
     color.w *= static_cast<float>(std::clamp(0.5 + beforeFront / request_.sampling.grid.voxelSize, 0.0, 1.0));

@@ -8,21 +8,21 @@ SHARED_BEGIN
 struct FrameParams {
   mat4 clipFromWorld;
   mat4 worldFromView;
-  vec4 eyeWorld;        // w: near distance, metres
-  vec4 projection;      // x, y: clipFromView[0][0], [1][1]; z: 1 orthographic; w: exposure factor
-  uvec4 size;           // x, y: pixels; z: lights; w: debug view (DEBUG_VIEW_*)
-  uvec4 counts;         // x: SDF instances; y: forced SDF level + 1, or 0; z: trace steps allowed; w: environment mips
-  vec4 debugRange;      // x, y: values shown as 0 and 1 by the debug views; z: 1 checks the depth promise
-  vec4 irradiance[9];   // spherical harmonics, rgb
+  vec4 eyeWorld;      // w: near distance, metres
+  vec4 projection;    // x, y: clipFromView[0][0], [1][1]; z: 1 orthographic; w: exposure factor
+  uvec4 size;         // x, y: pixels; z: lights; w: debug view (DEBUG_VIEW_*)
+  uvec4 counts;       // x: SDF instances; y: forced SDF level + 1, or 0; z: trace steps allowed; w: environment mips
+  vec4 debugRange;    // x, y: values shown as 0 and 1 by the debug views; z: 1 checks the depth promise
+  vec4 irradiance[9]; // spherical harmonics, rgb
 };
 SHARED_ASSERT_SIZE(FrameParams, 128 + 5 * 16 + 9 * 16)
 
 // A light that is on. Units as in KHR_lights_punctual.
 struct LightRow {
-  vec4 position;   // world; w: kind (LIGHT_*)
-  vec4 direction;  // world, where it travels, unit; w: range in metres, 0 infinite
-  vec4 intensity;  // rgb lux or candela; w: radius in metres
-  vec4 cone;       // x: scale, y: offset of the spot's angular falloff
+  vec4 position;  // world; w: kind (LIGHT_*)
+  vec4 direction; // world, where it travels, unit; w: range in metres, 0 infinite
+  vec4 intensity; // rgb lux or candela; w: radius in metres
+  vec4 cone;      // x: scale, y: offset of the spot's angular falloff
 };
 SHARED_ASSERT_SIZE(LightRow, 64)
 

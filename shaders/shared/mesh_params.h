@@ -6,15 +6,16 @@
 SHARED_BEGIN
 
 struct MeshVertex {
-  vec4 position;  // object space; w: bits of the octahedral normal, SNORM 2x16
-  vec4 uv;        // set 0, set 1
-  uvec4 codes;    // x: octahedral tangent, SNORM 2x16; y, z: colour, four halves; w: sign of the bitangent, 0 none, 1 +, 2 -
+  vec4 position; // object space; w: bits of the octahedral normal, SNORM 2x16
+  vec4 uv;       // set 0, set 1
+  uvec4
+      codes; // x: octahedral tangent, SNORM 2x16; y, z: colour, four halves; w: sign of the bitangent, 0 none, 1 +, 2 -
 };
 SHARED_ASSERT_SIZE(MeshVertex, 48)
 
 struct MeshDraw {
   mat4 worldFromObject;
-  ivec4 ids;      // x: node; y: material; z: DRAW_* flags
+  ivec4 ids; // x: node; y: material; z: DRAW_* flags
 };
 SHARED_ASSERT_SIZE(MeshDraw, 80)
 
@@ -23,9 +24,9 @@ SHARED_CONST uint DRAW_MIRRORED = 2;
 
 struct MaterialRow {
   vec4 baseColor;
-  vec4 emission;      // rgb; w: alpha cutoff, negative where nothing is cut
-  vec4 factors;       // metallic, roughness, normal scale, occlusion strength
-  ivec4 flags;        // x: 1 unlit; y: 1 double-sided; z: bits of the textures in use; w: bits of those that take UV set 1
+  vec4 emission; // rgb; w: alpha cutoff, negative where nothing is cut
+  vec4 factors;  // metallic, roughness, normal scale, occlusion strength
+  ivec4 flags;   // x: 1 unlit; y: 1 double-sided; z: bits of the textures in use; w: bits of those that take UV set 1
   vec4 textureFromUv[10]; // two rows for each texture: (m00 m01 offset), in the order of MATERIAL_*
 };
 SHARED_ASSERT_SIZE(MaterialRow, 64 + 160)
@@ -39,9 +40,9 @@ SHARED_CONST uint MATERIAL_TEXTURES = 5;
 
 // One deformed primitive: counts and places in the pools that shaders/passes/deform.comp.glsl reads.
 struct DeformParams {
-  uvec4 vertices;   // x: first source vertex; y: count; z: first result vertex; w: influences a vertex (0, 4, 8)
-  uvec4 sources;    // x: first influence; y: first morph row; z: morph targets; w: first joint matrix
-  uvec4 weights;    // x: first morph weight
+  uvec4 vertices; // x: first source vertex; y: count; z: first result vertex; w: influences a vertex (0, 4, 8)
+  uvec4 sources;  // x: first influence; y: first morph row; z: morph targets; w: first joint matrix
+  uvec4 weights;  // x: first morph weight
 };
 SHARED_ASSERT_SIZE(DeformParams, 48)
 

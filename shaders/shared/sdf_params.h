@@ -8,17 +8,17 @@ SHARED_BEGIN
 struct SdfInstance {
   vec4 gridFromWorld[3]; // rows of the affine transform
   vec4 worldFromGrid[3];
-  vec4 boxMin;           // grid space; w: largest metres of world that one voxel spans
-  vec4 boxMax;           // grid space
-  ivec4 ids;             // x: node; y: first row in the level table; z: levels; w: SDF_* flags
+  vec4 boxMin; // grid space; w: largest metres of world that one voxel spans
+  vec4 boxMax; // grid space
+  ivec4 ids;   // x: node; y: first row in the level table; z: levels; w: SDF_* flags
 };
 SHARED_ASSERT_SIZE(SdfInstance, 144)
 
 SHARED_CONST uint SDF_DOUBLE_SIDED = 1;
 
 struct SdfLevel {
-  uvec4 cells;   // x: first indirection cell; y, z, w: bricks along each axis
-  vec4 scale;    // x: level voxels a grid voxel (1, 1/2, 1/4); y: voxels of the stored value 1; z: 1 in the R16 pool
+  uvec4 cells;      // x: first indirection cell; y, z, w: bricks along each axis
+  vec4 scale;       // x: level voxels a grid voxel (1, 1/2, 1/4); y: voxels of the stored value 1; z: 1 in the R16 pool
   uvec4 attributes; // x: first cell of the attribute indirection, or SDF_NO_ATTRIBUTES
 };
 SHARED_ASSERT_SIZE(SdfLevel, 48)

@@ -23,12 +23,14 @@ std::vector<std::byte> readFile(const fs::path& path, std::uint64_t limitBytes) 
   if (!fs::is_regular_file(status)) throw BadInput(path.string(), "", "not a regular file");
   const std::uint64_t bytes = fs::file_size(path, ec);
   if (ec) throw BadInput(path.string(), "", ec.message());
-  if (bytes > limitBytes) throw BadInput(path.string(), "", fmt::format("{} bytes, at most {} are read", bytes, limitBytes));
+  if (bytes > limitBytes)
+    throw BadInput(path.string(), "", fmt::format("{} bytes, at most {} are read", bytes, limitBytes));
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw BadInput(path.string(), "", fmt::format("cannot be opened: {}", std::strerror(errno)));
   std::vector<std::byte> content(bytes);
   stream.read(reinterpret_cast<char*>(content.data()), static_cast<std::streamsize>(bytes));
-  if (static_cast<std::uint64_t>(stream.gcount()) != bytes) throw BadInput(path.string(), "", "cannot be read to its end");
+  if (static_cast<std::uint64_t>(stream.gcount()) != bytes)
+    throw BadInput(path.string(), "", "cannot be read to its end");
   return content;
 }
 
@@ -36,7 +38,8 @@ void writeBesideAndRename(const fs::path& path, const std::function<void(const f
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code ec;
   if (!fs::is_directory(folder, ec)) throw BadInput(path.string(), "", "its folder does not exist");
-  if (!path.has_filename() || fs::is_directory(path, ec)) throw BadInput(path.string(), "", "names a folder, not a file");
+  if (!path.has_filename() || fs::is_directory(path, ec))
+    throw BadInput(path.string(), "", "names a folder, not a file");
   if (::access(folder.c_str(), W_OK) != 0) throw BadInput(path.string(), "", "its folder cannot be written");
   // A device such as /dev/null is written in place: renaming over it would replace it.
   if (fs::exists(path, ec) && !fs::is_regular_file(path, ec)) return write(path);

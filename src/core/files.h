@@ -19,7 +19,8 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t
 /// Calls `write` with the path of a temporary file in the same folder (with the target's extension), then renames it.
 /// Missing parent folders are not made. On any exception the temporary file is removed.
 /// error BadInput if the folder is missing or not writable
-void writeBesideAndRename(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write);
+void writeBesideAndRename(const std::filesystem::path& path,
+                          const std::function<void(const std::filesystem::path&)>& write);
 
 /// The same for bytes in memory.
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);

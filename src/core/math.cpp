@@ -39,8 +39,8 @@ glm::vec2 scaleRange(const glm::mat4& destinationFromSource) {
   const glm::dmat3 s = glm::transpose(m) * m;
   const double offDiagonal = s[1][0] * s[1][0] + s[2][0] * s[2][0] + s[2][1] * s[2][1];
   const double q = (s[0][0] + s[1][1] + s[2][2]) / 3.0;
-  const double p2 = (s[0][0] - q) * (s[0][0] - q) + (s[1][1] - q) * (s[1][1] - q) + (s[2][2] - q) * (s[2][2] - q) +
-                    2.0 * offDiagonal;
+  const double p2 =
+      (s[0][0] - q) * (s[0][0] - q) + (s[1][1] - q) * (s[1][1] - q) + (s[2][2] - q) * (s[2][2] - q) + 2.0 * offDiagonal;
   const double p = std::sqrt(p2 / 6.0);
   if (!(p > 0.0)) return glm::vec2(static_cast<float>(std::sqrt(std::max(q, 0.0))));
   const glm::dmat3 b = (s - q * glm::dmat3(1.0)) / p;
@@ -49,7 +49,8 @@ glm::vec2 scaleRange(const glm::mat4& destinationFromSource) {
   const double phi = std::acos(r) / 3.0;
   const double largest = q + 2.0 * p * std::cos(phi);
   const double smallest = q + 2.0 * p * std::cos(phi + kThirdOfTurn);
-  return {static_cast<float>(std::sqrt(std::max(smallest, 0.0))), static_cast<float>(std::sqrt(std::max(largest, 0.0)))};
+  return {static_cast<float>(std::sqrt(std::max(smallest, 0.0))),
+          static_cast<float>(std::sqrt(std::max(largest, 0.0)))};
 }
 
 glm::vec2 octahedralFromDirection(glm::vec3 direction) {
@@ -66,13 +67,13 @@ glm::vec3 directionFromOctahedral(glm::vec2 octahedral) {
   return glm::normalize(d);
 }
 
-float linearFromSrgb(float srgb) {
-  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
-}
+float linearFromSrgb(float srgb) { return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f); }
 float srgbFromLinear(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
-glm::vec3 linearFromSrgb(glm::vec3 srgb) { return {linearFromSrgb(srgb.x), linearFromSrgb(srgb.y), linearFromSrgb(srgb.z)}; }
+glm::vec3 linearFromSrgb(glm::vec3 srgb) {
+  return {linearFromSrgb(srgb.x), linearFromSrgb(srgb.y), linearFromSrgb(srgb.z)};
+}
 glm::vec3 srgbFromLinear(glm::vec3 linear) {
   return {srgbFromLinear(linear.x), srgbFromLinear(linear.y), srgbFromLinear(linear.z)};
 }

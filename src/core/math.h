@@ -22,7 +22,9 @@ struct Box {
   void extend(glm::vec3 point) { min = glm::min(min, point), max = glm::max(max, point); }
   void extend(const Box& box) { min = glm::min(min, box.min), max = glm::max(max, box.max); }
   Box expanded(float margin) const { return {min - margin, max + margin}; }
-  bool contains(glm::vec3 p) const { return glm::all(glm::lessThanEqual(min, p)) && glm::all(glm::lessThanEqual(p, max)); }
+  bool contains(glm::vec3 p) const {
+    return glm::all(glm::lessThanEqual(min, p)) && glm::all(glm::lessThanEqual(p, max));
+  }
 };
 
 /// Smallest axis-aligned box in destination space around a box of source space. Empty stays empty.

@@ -19,16 +19,16 @@
 
 namespace brickfield {
 
-inline constexpr int kBrickSamples = 8;                                                // samples along a brick's edge
-inline constexpr int kBrickCells = kBrickSamples - 1;                                  // voxels along a brick's edge
+inline constexpr int kBrickSamples = 8;                                                 // samples along a brick's edge
+inline constexpr int kBrickCells = kBrickSamples - 1;                                   // voxels along a brick's edge
 inline constexpr int kBrickSampleCount = kBrickSamples * kBrickSamples * kBrickSamples; // samples of a brick
 
 enum class DistanceFormat : std::uint32_t { R8Snorm = 0, R16Snorm = 1 };
 inline std::size_t bytesPerSample(DistanceFormat format) { return format == DistanceFormat::R8Snorm ? 1 : 2; }
 
-/// One indirection cell covers one brick. Either the index of a brick of its level, or nothing but a bound: the sign and
-/// a distance in voxels of this level that no point of the cell has a surface nearer than.
-/// bits  31 empty, 30 inside (only where empty), 15..0 bound in 1/16 voxel, rounded down
+/// One indirection cell covers one brick. Either the index of a brick of its level, or nothing but a bound: the sign
+/// and a distance in voxels of this level that no point of the cell has a surface nearer than. bits  31 empty, 30
+/// inside (only where empty), 15..0 bound in 1/16 voxel, rounded down
 struct IndirectionCell {
   std::uint32_t bits = 0;
 
@@ -47,16 +47,16 @@ struct IndirectionCell {
 /// One resolution of the field. Sample (i,j,k) of brick (a,b,c) lies at
 /// originObject + voxelSizeObject * (7 * (a,b,c) + (i,j,k)). Arrays over bricks hold 512 samples a brick, i fastest.
 struct BrickLevel {
-  float voxelSizeObject = 0;              ///< metres of object space along a voxel's edge
-  glm::ivec3 brickCounts{0};              ///< bricks along each axis; indirection holds their product, x fastest
-  float rangeVoxels = 4;                  ///< stored value 1.0 stands for this many voxels; larger distances are clamped
+  float voxelSizeObject = 0; ///< metres of object space along a voxel's edge
+  glm::ivec3 brickCounts{0}; ///< bricks along each axis; indirection holds their product, x fastest
+  float rangeVoxels = 4;     ///< stored value 1.0 stands for this many voxels; larger distances are clamped
   DistanceFormat format = DistanceFormat::R8Snorm;
   std::vector<std::uint32_t> indirection; ///< IndirectionCell::bits
   std::vector<std::byte> distances;       ///< SNORM, little-endian, negative inside
   // Surface attributes at the closest surface point; all empty, or one value a sample (emission may be empty alone).
-  std::vector<std::uint32_t> baseColor;   ///< RGBA8, sRGB transfer on RGB; alpha is coverage
-  std::vector<std::uint32_t> material;    ///< RGBA8: metallic, roughness, occlusion, unlit (0 or 255)
-  std::vector<std::uint32_t> emission;    ///< RGB9E5, linear radiance
+  std::vector<std::uint32_t> baseColor; ///< RGBA8, sRGB transfer on RGB; alpha is coverage
+  std::vector<std::uint32_t> material;  ///< RGBA8: metallic, roughness, occlusion, unlit (0 or 255)
+  std::vector<std::uint32_t> emission;  ///< RGB9E5, linear radiance
 
   std::uint32_t brickCount() const {
     return static_cast<std::uint32_t>(distances.size() / (bytesPerSample(format) * kBrickSampleCount));
@@ -70,10 +70,10 @@ struct BrickLevel {
 /// The field of one object; levels finest first, each with twice the voxel of the one before. The coarsest level has
 /// every brick and a range that clamps nothing.
 struct BrickField {
-  Box boundsObject;                   ///< what is traced: the surface and one voxel around it
-  glm::vec3 originObject{0};          ///< sample 0 of every level
+  Box boundsObject;          ///< what is traced: the surface and one voxel around it
+  glm::vec3 originObject{0}; ///< sample 0 of every level
   std::vector<BrickLevel> levels;
-  Hash128 sourceHash;                 ///< of mesh and settings, see bakers/bake_cache.h
+  Hash128 sourceHash; ///< of mesh and settings, see bakers/bake_cache.h
 };
 
 /// SNORM code of a distance in units of the range, and back. Zero is never made of a negative distance: the code -1 is

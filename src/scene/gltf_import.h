@@ -10,7 +10,7 @@ namespace brickfield {
 
 /// Bounds against files that are small on disk and vast in memory. Defaults admit every honest scene of a desktop.
 struct ImportLimits {
-  std::uint64_t fileBytes = std::uint64_t{2} << 30;        ///< each file that is read
+  std::uint64_t fileBytes = std::uint64_t{2} << 30; ///< each file that is read
   std::uint32_t imageSidePixels = 16384;
   std::uint64_t imagePixelsTotal = std::uint64_t{256} << 20;
   std::uint64_t verticesTotal = std::uint64_t{128} << 20;
