@@ -46,6 +46,7 @@ PackedAttributes AttributeBaker::at(std::uint32_t triangle, const PointOnTriangl
 }
 
 bool AttributeBaker::isSingleSided(std::uint32_t triangle) const {
+  if (!soup_->isBackCovered.empty() && soup_->isBackCovered[triangle]) return false;
   return !materialOf(*input_->scene, *input_->primitives[soup_->primitiveIndices[triangle]]).doubleSided;
 }
 

@@ -30,7 +30,7 @@ public:
   /// cost        a table look-up where the primitive has neither textures nor vertex colours
   PackedAttributes at(std::uint32_t triangle, const PointOnTriangle& on, float voxelMetres) const;
 
-  /// Whether the triangle's material shows its front alone.
+  /// Whether the triangle's material shows its front alone and no other triangle covers its back.
   bool isSingleSided(std::uint32_t triangle) const;
 
 private:

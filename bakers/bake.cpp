@@ -69,7 +69,9 @@ public:
         settings_(settings),
         progress_(progress),
         soup_(gatherTriangles(input)),
-        topology_(analyseTopology(soup_)) {}
+        topology_(analyseTopology(soup_)) {
+    soup_.isBackCovered = topology_.isFlatPair;
+  }
 
   BakeResult run() {
     split();

@@ -11,7 +11,7 @@ namespace brickfield {
 
 namespace {
 
-constexpr std::uint32_t kBakerVersion = 4; // raise it whenever the same input gives other bytes
+constexpr std::uint32_t kBakerVersion = 5; // raise it whenever the same input gives other bytes
 
 void addTexture(Hasher& hasher, const Scene& scene, const TextureSlot& slot) {
   hasher.add(slot.texture);
@@ -34,7 +34,7 @@ void addMaterial(Hasher& hasher, const Scene& scene, const Material& material) {
   for (int i = 0; i < 4; ++i) hasher.add(material.baseColor[i]);
   for (int i = 0; i < 3; ++i) hasher.add(material.emission[i]);
   hasher.add(material.metallic).add(material.roughness).add(material.occlusionStrength);
-  hasher.add(material.alphaCutoff).add(material.unlit);
+  hasher.add(material.alphaCutoff).add(material.unlit).add(material.doubleSided);
   addTexture(hasher, scene, material.baseColorTexture);
   addTexture(hasher, scene, material.metallicRoughnessTexture);
   addTexture(hasher, scene, material.occlusionTexture);

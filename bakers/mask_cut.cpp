@@ -87,6 +87,7 @@ void appendPiece(TriangleSoup& soup, std::uint32_t parent, const Piece& piece) {
   soup.triangles.push_back(vertices);
   soup.primitiveIndices.push_back(soup.primitiveIndices[parent]);
   soup.triangleIndices.push_back(soup.triangleIndices[parent]);
+  if (!soup.isBackCovered.empty()) soup.isBackCovered.push_back(soup.isBackCovered[parent]);
   soup.pieceBarycentrics.push_back(piece);
 }
 

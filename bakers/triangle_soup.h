@@ -26,9 +26,11 @@ struct TriangleSoup {
   std::vector<TriangleVertices> slivers;       ///< dropped ones whose three vertices differ: only for topology
   std::vector<std::uint32_t> primitiveIndices; ///< a triangle: into BakeInput::primitives
   std::vector<std::uint32_t> triangleIndices;  ///< a triangle: number within its primitive
-  std::uint64_t degenerateCount = 0;           ///< dropped triangles
-  Box boundsObject;                            ///< of the triangles that are kept
-  double reach = 0;                            ///< no corner is farther from zero; soup space
+  /// A triangle: another one covers its back (MeshTopology::isFlatPair). Empty: none does.
+  std::vector<bool> isBackCovered;
+  std::uint64_t degenerateCount = 0; ///< dropped triangles
+  Box boundsObject;                  ///< of the triangles that are kept
+  double reach = 0;                  ///< no corner is farther from zero; soup space
 
   glm::dvec3 soupFromObject(glm::dvec3 pointObject) const { return (pointObject - centerObject) * unitsPerMetre; }
   /// Barycentric corners, in the triangle that triangleIndices names, of the last triangles: those that masks were cut

@@ -80,6 +80,39 @@ TEST(BakeAttributes, AlphaIsKeptWhereTheMaterialCuts) {
   EXPECT_NEAR(attributesAt(field, 0, {0.5f, 1, 0}).baseColor.w, 128 / 255.0f, 1.5f / 255);
 }
 
+TEST(BakeAttributes, CoverageOfOneHalfIsTheCutoff) {
+  MeshCase box = twoColouredBox();
+  box.material().alphaMode = AlphaMode::Mask;
+  for (const float cutoff : {0.25f, 0.8f}) {
+    box.material().alphaCutoff = cutoff;
+    const BrickField field = bakeField(box.input(), settingsOf(32)).field;
+    const float expected = std::min(1.0f, 0.5f * (128 / 255.0f) / cutoff);
+    EXPECT_NEAR(attributesAt(field, 0, {0.5f, 1, 0}).baseColor.w, expected, 1.5f / 255) << cutoff;
+  }
+}
+
+TEST(BakeAttributes, SingleSidedSheetCoversItsFrontAlone) {
+  MeshCase quad;
+  quad.addQuad({-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}); // faces up
+  for (const bool doubleSided : {false, true}) {
+    quad.material().doubleSided = doubleSided;
+    const BrickField field = bakeField(quad.input(), settingsOf(64)).field;
+    const float voxel = field.levels[0].voxelSizeObject;
+    EXPECT_EQ(attributesAt(field, 0, {0.2f, voxel, 0.1f}).baseColor.w, 1.0f);
+    EXPECT_EQ(attributesAt(field, 0, {0.2f, -voxel, 0.1f}).baseColor.w, doubleSided ? 1.0f : 0.0f);
+  }
+}
+
+TEST(BakeAttributes, TwoSingleSidedQuadsBackToBackCoverBothSides) {
+  MeshCase quads;
+  quads.addQuad({-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1});
+  quads.addQuad({-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1});
+  const BrickField field = bakeField(quads.input(), settingsOf(64)).field;
+  const float voxel = field.levels[0].voxelSizeObject;
+  for (const float side : {-1.0f, 1.0f})
+    EXPECT_EQ(attributesAt(field, 0, {0.2f, side * voxel, 0.1f}).baseColor.w, 1.0f) << side;
+}
+
 TEST(BakeAttributes, FactorsAndVertexColoursMultiply) {
   MeshCase box;
   box.addBox(glm::vec3(-1), glm::vec3(1));

@@ -132,6 +132,7 @@ TEST(BakeCache, HashHangsOnAllThatDecidesTheBytes) {
   expectOther("uv", [](MeshCase& m, BakeSettings&) { m.primitive().uvs[0][2].x += 0.1f; });
   expectOther("factor", [](MeshCase& m, BakeSettings&) { m.material().baseColor.y = 0.5f; });
   expectOther("alpha mode", [](MeshCase& m, BakeSettings&) { m.material().alphaMode = AlphaMode::Mask; });
+  expectOther("sides", [](MeshCase& m, BakeSettings&) { m.material().doubleSided = true; });
   expectOther("texel", [](MeshCase& m, BakeSettings&) { m.scene.images[0].rgba[1] = 99; });
   expectOther("wrap", [](MeshCase& m, BakeSettings&) { m.scene.textures[0].wrapU = Wrap::ClampToEdge; });
   expectOther("resolution", [](MeshCase&, BakeSettings& s) { s.resolution = 25; });

@@ -37,6 +37,7 @@ MeshCase diskCard(float cutoff = 0.5f) {
   card.material().baseColorTexture.texture = 0;
   card.material().alphaMode = AlphaMode::Mask;
   card.material().alphaCutoff = cutoff;
+  card.material().doubleSided = true;
   return card;
 }
 
