@@ -62,7 +62,7 @@ nlohmann::json statsJson(const BakeRequest& request, const BakeSettings& setting
 }
 
 int bake(const BakeRequest& request) {
-  checkOutputs({{"-o", request.output, {".bricks"}}, {"--stats", request.stats, {".json"}}});
+  checkOutputs({{"-o", request.output, {".bricks"}}, {"--stats", request.stats, {".json"}}}, {request.meshPath});
   const Scene scene = importGltf(request.meshPath);
   const Pose pose = poseScene(scene, {});
   const PosedInstance& instance = chooseMesh(scene, pose, request.node);

@@ -86,7 +86,7 @@ void print(const LayerDifference& difference, Metric metric) {
 }
 
 int compare(const CompareOptions& options) {
-  checkOutputs({{"--heatmap", options.heatmap, {".png"}}});
+  checkOutputs({{"--heatmap", options.heatmap, {".png"}}}, {options.a, options.b});
   checkInputPath(options.a, {".png", ".exr"});
   checkInputPath(options.b, {".png", ".exr"});
   if (extensionOf(options.a) != extensionOf(options.b))

@@ -89,7 +89,8 @@ nlohmann::json errorAgainst(const InspectOptions& options, const BrickField& fie
 #endif
 
 int inspect(const InspectOptions& options) {
-  checkOutputs({{"-o", options.output, {".png"}}, {"--json", options.json, {".json"}}});
+  checkOutputs({{"-o", options.output, {".png"}}, {"--json", options.json, {".json"}}},
+               {options.bricks, options.against});
   if (options.slice.has_value() == options.output.empty())
     throw BadInput(options.output.empty() ? "--slice" : "-o", "",
                    options.output.empty() ? "needs -o" : "needs --slice");

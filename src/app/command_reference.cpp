@@ -28,7 +28,8 @@ struct ReferenceOptions {
 };
 
 int reference(const ReferenceOptions& options) {
-  checkOutputs({{"-o", options.output, {".exr", ".png"}}, {"--layers", options.layers, {".exr"}}});
+  checkOutputs({{"-o", options.output, {".exr", ".png"}}, {"--layers", options.layers, {".exr"}}},
+               {options.scene.path, options.light.environment});
   checkCamera(options.camera);
   const Scene scene = importGltf(options.scene.path);
   const Pose pose = poseScene(scene, options.scene.pose);

@@ -32,7 +32,8 @@ void checkView(const std::string& view) {
 int render(const RenderRequest& request) {
   checkOutputs({{"-o", request.output, {".png", ".exr"}},
                 {"--layers", request.layers, {".exr"}},
-                {"--stats", request.stats, {".json"}}});
+                {"--stats", request.stats, {".json"}}},
+               {request.scene.path, request.light.environment});
   checkCamera(request.camera);
   checkView(request.view);
   checkInputPath(request.scene.path, {".gltf", ".glb"});

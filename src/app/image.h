@@ -17,5 +17,7 @@ struct RgbImage {
 };
 
 inline constexpr std::uint32_t kLargestImageSide = 16384; ///< pixels; of files read and images made
+/// Of images made: 8K; a frame holds about 150 bytes a pixel, so this many take 5 GiB.
+inline constexpr std::uint64_t kLargestImagePixels = std::uint64_t{1} << 25;
 
 } // namespace brickfield

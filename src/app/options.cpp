@@ -137,8 +137,7 @@ std::vector<bool> matchedNodes(const Scene& scene, const std::string& pattern) {
     isMatched[i] = node.mesh >= 0 && (pattern == "all" || ::fnmatch(pattern.c_str(), node.name.c_str(), 0) == 0);
     isAny = isAny || isMatched[i];
   }
-  if (!isAny && pattern == "all") throw BadInput("--sdf", "all", "no node of the scene has a mesh");
-  if (!isAny)
+  if (!isAny && pattern != "all")
     throw BadInput("--sdf", fmt::format("\"{}\"", pattern),
                    "matches no node with a mesh; there are: " + someMeshNodes(scene));
   return isMatched;
@@ -164,10 +163,13 @@ std::vector<std::optional<BakeSettings>> sdfNodes(const Scene& scene, const SdfR
   return settings;
 }
 
-void checkOutputs(const std::vector<OutputPath>& outputs) {
+void checkOutputs(const std::vector<OutputPath>& outputs, const std::vector<fs::path>& inputs) {
   for (const OutputPath& output : outputs) {
     if (output.path.empty()) continue;
     checkOutputPath(output.path, output.flag, output.extensions);
+    for (const fs::path& input : inputs)
+      if (!input.empty() && fs::weakly_canonical(input) == fs::weakly_canonical(output.path))
+        throw BadInput(output.path.string(), output.flag, "is a file that is read");
     for (const OutputPath& other : outputs) {
       if (&other == &output) break;
       if (!other.path.empty() && fs::weakly_canonical(other.path) == fs::weakly_canonical(output.path) &&

@@ -78,9 +78,10 @@ struct OutputPath {
   std::filesystem::path path; ///< empty: not asked for
   std::vector<std::string> extensions;
 };
-/// Checks each output that is asked for, and that no two are one, which would overwrite each other.
+/// Checks each output that is asked for, and that none is another one or one of the files that are read (empty paths
+/// count as none), which would overwrite it.
 /// error  BadInput that names file and flag
-void checkOutputs(const std::vector<OutputPath>& outputs);
+void checkOutputs(const std::vector<OutputPath>& outputs, const std::vector<std::filesystem::path>& inputs);
 
 /// "auto", "winding", "parity", "pseudonormal", "two-sided". error BadInput that names the flag
 SignMethod parseSign(const std::string& flag, const std::string& text);

@@ -54,6 +54,8 @@ glm::uvec2 parseSize(std::string_view flag, std::string_view text) {
     throw refuse(flag, text, "is not WIDTHxHEIGHT, such as 1280x720");
   if (size.x < 1 || size.y < 1 || size.x > kLargestImageSide || size.y > kLargestImageSide)
     throw refuse(flag, text, fmt::format("each side must be from 1 to {} pixels", kLargestImageSide));
+  if (std::uint64_t{size.x} * size.y > kLargestImagePixels)
+    throw refuse(flag, text, fmt::format("more than {} pixels in all", kLargestImagePixels));
   return size;
 }
 

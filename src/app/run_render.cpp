@@ -50,7 +50,7 @@ void drawFrames(const RenderRequest& request, const Scene& scene, const Pose& la
     const int before = request.frames - 1 - frame;
     if (before > 0 && request.scene.pose.seconds) {
       PoseRequest earlier = request.scene.pose;
-      earlier.seconds = std::max(0.0, *earlier.seconds - before / 60.0);
+      earlier.seconds = *earlier.seconds - before / 60.0; // clamped to the keys by the pose
       pose = poseScene(scene, earlier);
     }
     renderer.setPose(pose);

@@ -33,6 +33,10 @@ SceneFieldsResult bakeSceneFields(const Scene& scene, const Pose& pose,
     if (done[node] || !settingsOfNode[node]) continue;
     done[node] = true;
     const BakeInput input = bakeInputOf(scene, instance);
+    if (glm::determinant(glm::mat3(instance.worldFromObject)) == 0.0f) {
+      result.warnings.push_back(nodeLabel(scene, instance.node) + ": its transform flattens space, so it stays a mesh");
+      continue;
+    }
     if (!hasArea(input)) {
       result.warnings.push_back(nodeLabel(scene, instance.node) + ": its mesh has no area, so it stays a mesh");
       continue;

@@ -180,11 +180,20 @@ TEST(CheckCamera, WantsEyeAndTargetTogether) {
 TEST(CheckOutputs, RefusesTwoFlagsWithOneFile) {
   const test::TemporaryFolder folder;
   const auto picture = folder / "a.exr";
-  checkOutputs({{"-o", picture, {".exr"}}, {"--layers", folder / "b.exr", {".exr"}}, {"--stats", {}, {".json"}}});
+  checkOutputs({{"-o", picture, {".exr"}}, {"--layers", folder / "b.exr", {".exr"}}, {"--stats", {}, {".json"}}}, {});
   EXPECT_THAT(refusalOf([&] {
-                checkOutputs({{"-o", picture, {".exr"}}, {"--layers", picture, {".exr"}}});
+                checkOutputs({{"-o", picture, {".exr"}}, {"--layers", picture, {".exr"}}}, {});
               }),
               AllOf(HasSubstr("a.exr"), HasSubstr("--layers"), HasSubstr("-o")));
+}
+
+TEST(CheckOutputs, RefusesAFileThatIsRead) {
+  const test::TemporaryFolder folder;
+  const auto picture = folder / "a.exr";
+  EXPECT_THAT(refusalOf([&] {
+                checkOutputs({{"-o", picture, {".exr"}}}, {{}, picture});
+              }),
+              AllOf(HasSubstr("a.exr"), HasSubstr("-o"), HasSubstr("read")));
 }
 
 TEST(ParseSign, KnowsEveryMethod) {
