@@ -105,7 +105,12 @@ void Buffer::copyFrom(const Buffer& source, std::size_t sourceOffset, std::size_
 bool Buffer::growTo(std::size_t leastBytes) {
   if (leastBytes <= bytes_) return false;
   Buffer larger(label_, std::max(leastBytes, bytes_ + bytes_ / 2), flags_);
-  if (id_) larger.copyFrom(*this, 0, 0, bytes_);
+  if (id_) {
+    larger.copyFrom(*this, 0, 0, bytes_);
+    // NVIDIA 580.159 lets an upload overtake the copy before it, which then puts the old bytes back (seen on an H200: a
+    // seventh of the brick indirection lost; neither a barrier nor keeping the old buffer helped). Growth is rare.
+    glFinish();
+  }
   *this = std::move(larger);
   return true;
 }

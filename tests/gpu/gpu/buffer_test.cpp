@@ -70,6 +70,19 @@ TEST_F(BufferTest, ClearFillsWordsAndParts) {
   EXPECT_THROW(odd.clear(0x01020304u), Failure);
 }
 
+// What is uploaded right after a growth lands over the copy of the old bytes, not under it.
+TEST_F(BufferTest, UploadAfterGrowthWins) {
+  Buffer buffer("growing", std::size_t{1} << 16);
+  for (std::uint32_t round = 1; round <= 6; ++round) {
+    buffer.clear(0u);
+    const std::size_t oldBytes = buffer.bytes();
+    ASSERT_TRUE(buffer.growTo(oldBytes + 4));
+    const std::vector<std::uint32_t> upload(64, round);
+    buffer.upload(oldBytes - 256, upload);
+    EXPECT_EQ(buffer.read<std::uint32_t>(oldBytes - 256, 64), upload) << "round " << round;
+  }
+}
+
 TEST_F(BufferTest, GrowthKeepsContent) {
   std::vector<int> values(100);
   std::iota(values.begin(), values.end(), 0);
