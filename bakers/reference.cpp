@@ -52,6 +52,7 @@ FrameLayers emptyLayers(glm::uvec2 size) {
   layers.albedo.assign(count, glm::vec3(0.0f));
   layers.id.assign(count, -1);
   layers.kind.assign(count, SurfaceKind::None);
+  layers.steps.assign(count, 0.0f); // nothing here is stepped through; made, so that the renderer's layers are matched
   return layers;
 }
 
@@ -62,7 +63,7 @@ public:
         progress_(progress),
         sampler_(*request.scene),
         geometry_(*request.scene, *request.pose, sampler_, progress),
-        shading_(*request.lighting, geometry_),
+        shading_(*request.lighting, geometry_, request.shadows),
         layers_(emptyLayers(request.view->sizePixels)) {}
 
   FrameLayers run() {
@@ -82,7 +83,7 @@ private:
   void traceTile(glm::uvec2 tile) {
     const glm::uvec2 begin = tile * kTilePixels, end = glm::min(begin + kTilePixels, layers_.size);
     for (std::uint32_t y = begin.y; y < end.y; ++y)
-      for (std::uint32_t x = begin.x; x < end.x; ++x) tracePixel({x, y});
+      for (std::uint32_t x = begin.x; x < end.x && !progress_.isCancelled(); ++x) tracePixel({x, y});
   }
 
   void tracePixel(glm::uvec2 pixel) {

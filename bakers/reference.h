@@ -1,5 +1,5 @@
 // The reference image: Embree primary rays against the source triangles, with the renderer's camera and materials.
-// Direct light with hard shadows, unshadowed diffuse environment light. What the renderer is measured against.
+// Direct light with hard shadows or without, unshadowed environment light. What the renderer is measured against.
 #pragma once
 
 #include <functional>
@@ -17,6 +17,7 @@ struct ReferenceRequest {
   const View* view = nullptr;
   const Lighting* lighting = nullptr;
   std::function<bool(int node)> isSdf; ///< marks the `kind` layer; the geometry is the mesh all the same
+  bool shadows = true;                 ///< false: lights pass through everything, as in a renderer without shadows
   int samples = 1; ///< a pixel; the first goes through the centre and alone makes all layers but colour
   std::uint64_t seed = 0;
   int threads = 0; ///< 0: all

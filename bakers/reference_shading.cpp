@@ -11,9 +11,10 @@
 
 namespace brickfield {
 
-ReferenceShading::ReferenceShading(const Lighting& lighting, const ReferenceGeometry& geometry)
+ReferenceShading::ReferenceShading(const Lighting& lighting, const ReferenceGeometry& geometry, bool shadows)
     : lighting_(lighting),
       geometry_(geometry),
+      shadows_(shadows),
       irradiance_(irradianceHarmonics(lighting.environment)),
       environment_(prefilterEnvironment(lighting.environment)) {}
 
@@ -48,7 +49,8 @@ glm::vec3 ReferenceShading::shade(const SurfaceHit& surface, const MaterialSampl
     if (nDotL <= 0.0f || arrival.irradiance == glm::vec3(0.0f)) continue;
     const glm::vec3 answer =
         evaluateBrdf(brdf, normalWorld, towardsViewer, arrival.towardsLight) * arrival.irradiance * nDotL;
-    if (answer == glm::vec3(0.0f) || geometry_.isOccluded(start, arrival.towardsLight, arrival.distance)) continue;
+    if (answer == glm::vec3(0.0f)) continue;
+    if (shadows_ && geometry_.isOccluded(start, arrival.towardsLight, arrival.distance)) continue;
     radiance += answer;
   }
   return radiance;

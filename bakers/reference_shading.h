@@ -12,8 +12,8 @@ namespace brickfield {
 /// What every hit of an image is lit by.
 class ReferenceShading {
 public:
-  /// Both must outlive it.
-  ReferenceShading(const Lighting& lighting, const ReferenceGeometry& geometry);
+  /// Lighting and geometry must outlive it. shadows  false: nothing blocks light
+  ReferenceShading(const Lighting& lighting, const ReferenceGeometry& geometry, bool shadows);
 
   /// Radiance towards the viewer.
   ///
@@ -32,6 +32,7 @@ private:
 
   const Lighting& lighting_;
   const ReferenceGeometry& geometry_;
+  bool shadows_;
   std::array<glm::vec3, 9> irradiance_;
   PrefilteredEnvironment environment_;
 };

@@ -9,8 +9,7 @@
 layout(local_size_x = 256) in;
 
 layout(std430, binding = kSdfInstanceBinding) readonly buffer SdfInstanceBlock { SdfInstance sdfInstances[]; };
-struct DrawCommand { uint vertices, instances, firstVertex, baseInstance; };
-layout(std430, binding = kPassBufferABinding) writeonly buffer CommandBlock { DrawCommand commands[2]; };
+layout(std430, binding = kPassBufferABinding) writeonly buffer CommandBlock { BoxCommand commands[BOX_COMMANDS]; };
 layout(std430, binding = kPassBufferBBinding) writeonly buffer VisibleBlock { uint visible[]; }; // two halves of counts.x
 
 uniform bool reverseOrder; // draws the same objects back to front of the list; the picture must not change
@@ -100,7 +99,7 @@ void main() {
     barrier();
   }
   if (thread == 0u) {
-    commands[0] = DrawCommand(18u, totals.x, 0u, 0u);
-    commands[1] = DrawCommand(36u, totals.y, 0u, frame.counts.x);
+    commands[BOX_COMMAND_FACING] = BoxCommand(18u, totals.x, 0u, 0u);
+    commands[BOX_COMMAND_NEAR_PLANE] = BoxCommand(36u, totals.y, 0u, frame.counts.x);
   }
 }

@@ -39,6 +39,20 @@ SHARED_CONST uint VISIBLE_LEVEL_SHIFT = 24u;
 SHARED_CONST uint VISIBLE_LEVEL_MASK = 0x7u;
 SHARED_CONST uint VISIBLE_INSIDE = 0x80000000u;
 
+// DrawArraysIndirectCommand of the visible boxes: one for the faces that look at the eye, one for the far faces of boxes
+// that the near plane or the eye may cut.
+struct BoxCommand {
+  uint vertices;
+  uint instances;
+  uint firstVertex;
+  uint baseInstance;
+};
+SHARED_ASSERT_SIZE(BoxCommand, 16)
+
+SHARED_CONST uint BOX_COMMAND_FACING = 0;
+SHARED_CONST uint BOX_COMMAND_NEAR_PLANE = 1;
+SHARED_CONST uint BOX_COMMANDS = 2;
+
 // Counters of a frame (storage buffer, one uint each).
 SHARED_CONST uint COUNTER_FRAGMENTS = 0;
 SHARED_CONST uint COUNTER_HITS = 1;

@@ -10,6 +10,7 @@
 #include "app/parse.h"
 #include "app/progress_bar.h"
 #include "app/session.h"
+#include "app/shadow_choice.h"
 #include "bakers/reference.h"
 #include "scene/gltf_import.h"
 
@@ -23,15 +24,18 @@ struct ReferenceOptions {
   LightRequest light;
   std::filesystem::path output;
   std::filesystem::path layers;
+  ShadowChoice shadows = ShadowChoice::Traced;
   float exposureEv = 0;
   int samples = 1;
 };
 
 int reference(const ReferenceOptions& options) {
-  checkOutputs({{"-o", options.output, {".exr", ".png"}}, {"--layers", options.layers, {".exr"}}},
-               {options.scene.path, options.light.environment});
+  const std::vector<OutputPath> outputs{{"-o", options.output, {".exr", ".png"}},
+                                        {"--layers", options.layers, {".exr"}}};
+  checkOutputs(outputs, {options.scene.path, options.light.environment});
   checkCamera(options.camera);
   const Scene scene = importGltf(options.scene.path);
+  checkSceneFiles(scene, outputs);
   const Pose pose = poseScene(scene, options.scene.pose);
   const View view = makeView(scene, pose, options.camera);
   const Lighting lighting = makeLighting(pose, options.light);
@@ -44,6 +48,7 @@ int reference(const ReferenceOptions& options) {
   request.view = &view;
   request.lighting = &lighting;
   request.isSdf = [&](int node) { return node >= 0 && sdf[static_cast<std::size_t>(node)].has_value(); };
+  request.shadows = options.shadows == ShadowChoice::Traced;
   request.samples = options.samples;
   request.seed = options.scene.seed;
   request.threads = options.scene.threads;
@@ -66,6 +71,7 @@ void addOptions(CLI::App& command, ReferenceOptions& options) {
       ->required();
   addCameraOptions(command, options.camera);
   addLightOptions(command, options.light);
+  addReferenceShadows(command, options.shadows);
   addExposureOption(command, options.exposureEv);
   addValue(command, "--samples", "Rays a pixel, 1 to 65536; the first goes through its centre",
            [&](auto& flag, auto& text) { options.samples = static_cast<int>(parseWhole(flag, text, 1, 65536)); })

@@ -30,10 +30,7 @@ void checkView(const std::string& view) {
 }
 
 int render(const RenderRequest& request) {
-  checkOutputs({{"-o", request.output, {".png", ".exr"}},
-                {"--layers", request.layers, {".exr"}},
-                {"--stats", request.stats, {".json"}}},
-               {request.scene.path, request.light.environment});
+  checkOutputs(outputsOf(request), {request.scene.path, request.light.environment});
   checkCamera(request.camera);
   checkView(request.view);
   checkInputPath(request.scene.path, {".gltf", ".glb"});
@@ -54,6 +51,7 @@ void addOptions(CLI::App& command, RenderRequest& request) {
   addValue(command, "--trace", "How SDF objects are found: auto or boxes", [&](auto& flag, auto& text) {
     request.trace = parseTrace(flag, text);
   })->type_name("PATH");
+  addRenderShadows(command, request.shadows);
   command.add_option("--view", request.view, "A debug view instead of the picture; see \"brickfield list views\"")
       ->type_name("NAME");
   addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", request.layers);

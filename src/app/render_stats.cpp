@@ -1,35 +1,188 @@
-// One object; names as in FrameStats.
+// One object, a function each part; names of counts as in FrameStats.
 #include "app/render_stats.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <sys/resource.h>
+
+#include "bakers/bake.h"
 
 namespace brickfield {
 
-nlohmann::ordered_json renderStatsJson(const RenderRequest& request, const ContextInfo& info, const FrameStats& stats) {
-  nlohmann::ordered_json json;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vectorJson(glm::vec3 v) { return {v.x, v.y, v.z}; }
+
+template <typename Value>
+Json valueOr(const std::optional<Value>& value, const char* absent) {
+  return value ? Json(*value) : Json(absent);
+}
+
+std::string cacheFolderOf(const RenderRequest& request) {
+  return (request.scene.cacheFolder ? *request.scene.cacheFolder : defaultCacheFolder()).string();
+}
+
+/// The middle value; of an even count the lower of the two in the middle.
+double medianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double leastOf(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
+
+// What was asked for, or what holds where nothing was.
+Json settingsJson(const RenderRun& run) {
+  const RenderRequest& request = *run.request;
+  const CameraRequest& camera = request.camera;
+  const SdfRequest& sdf = request.scene.sdf;
+  Json json;
+  json["size"] = {camera.sizePixels.x, camera.sizePixels.y};
+  json["camera"] = camera.eye ? "--eye" : camera.camera.empty() ? "first, else auto" : camera.camera;
+  json["eye"] = vectorJson(run.view.eyeWorld);
+  json["forward"] = vectorJson(-glm::vec3(run.view.worldFromView[2]));
+  json["up"] = vectorJson(glm::vec3(run.view.worldFromView[1]));
+  if (run.view.orthographic)
+    json["height_metres"] = 2.0f / run.view.clipFromView[1][1];
+  else
+    json["fov_degrees"] = glm::degrees(2.0f * std::atan(1.0f / run.view.clipFromView[1][1]));
+  json["near"] = run.view.nearDistance;
+  json["time"] = valueOr(request.scene.pose.seconds, "rest pose");
+  json["animation"] = request.scene.pose.animation;
+  json["frames"] = request.frames;
+  json["trace"] = "boxes"; // what auto chooses too
+  json["sdf"] = sdf.patterns.empty() ? Json("extras") : Json(sdf.patterns);
+  json["resolution"] = valueOr(sdf.resolution, "extras");
+  json["shadows"] = shadowName(request.shadows);
+  json["light"] = request.light.texts.empty() ? Json("scene") : Json(request.light.texts);
+  json["environment"] = request.light.environment.empty() ? "sky" : request.light.environment.string();
+  json["exposure"] = request.exposureEv;
+  json["view"] = request.view.empty() ? "picture" : request.view;
+  json["seed"] = request.scene.seed;
+  json["threads"] = request.scene.threads;
+  if (request.device >= 0)
+    json["device"] = request.device;
+  else
+    json["device"] = "first that works";
+  return json;
+}
+
+Json sceneJson(const RenderRun& run) {
+  std::size_t triangles = 0;
+  for (const PosedInstance& instance : run.pose->instances)
+    for (const Primitive& primitive : run.scene->meshes[static_cast<std::size_t>(instance.mesh)].primitives)
+      triangles += primitive.indices.size() / 3;
+  return {{"nodes", run.scene->nodes.size()},           {"meshes", run.scene->meshes.size()},
+          {"instances", run.pose->instances.size()},    {"triangles", triangles},
+          {"materials", run.scene->materials.size()},   {"images", run.scene->images.size()},
+          {"animations", run.scene->animations.size()}, {"cameras", run.pose->cameraNodes.size()},
+          {"lights", run.lighting->lights.size()},      {"fields", run.fields->fields.size()}};
+}
+
+// Each pass by name: what the frames that had it took.
+std::vector<std::pair<std::string, std::vector<double>>> timesOfPasses(const std::vector<FrameTime>& frames) {
+  std::vector<std::pair<std::string, std::vector<double>>> times;
+  for (const FrameTime& frame : frames)
+    for (const PassTime& pass : frame.passes) {
+      auto known = std::ranges::find(times, pass.name, [](const auto& entry) { return entry.first; });
+      if (known == times.end()) known = times.insert(times.end(), {pass.name, {}});
+      known->second.push_back(pass.milliseconds);
+    }
+  return times;
+}
+
+double gpuMillisecondsOf(const FrameTime& frame) {
+  double sum = 0;
+  for (const PassTime& pass : frame.passes)
+    if (pass.depth == 0) sum += pass.milliseconds;
+  return sum;
+}
+
+Json timesJson(const RenderRun& run) {
+  std::vector<double> cpu, gpu;
+  for (const FrameTime& frame : run.frames) {
+    cpu.push_back(frame.cpuMilliseconds);
+    gpu.push_back(gpuMillisecondsOf(frame));
+  }
+  Json passes, least, median;
+  for (const PassTime& pass : run.frames.back().passes) passes[pass.name] = pass.milliseconds;
+  for (const auto& [name, times] : timesOfPasses(run.frames)) {
+    least[name] = leastOf(times);
+    median[name] = medianOf(times);
+  }
+  return {{"frame", gpu.back()},
+          {"passes", passes},
+          {"passes_min", least},
+          {"passes_median", median},
+          {"frames_gpu", gpu},
+          {"frames_gpu_min", leastOf(gpu)},
+          {"frames_gpu_median", medianOf(gpu)},
+          {"frames_cpu", cpu},
+          {"frames_cpu_min", leastOf(cpu)},
+          {"frames_cpu_median", medianOf(cpu)}};
+}
+
+Json timersJson(const ContextInfo& device) {
+  if (!device.isSoftware) return {{"kind", "queries"}, {"meaning", "GPU timestamps around each pass"}};
+  return {{"kind", "software"},
+          {"meaning", "glFinish and the CPU's clock around each pass: timer queries mean nothing on a software "
+                      "rasterizer, and frames_cpu holds the drawing too"}};
+}
+
+Json countsJson(const FrameStats& stats) {
+  return {{"sdf_instances", stats.sdfInstances},
+          {"sdf_visible", stats.sdfVisible},
+          {"sdf_near_plane", stats.sdfInside},
+          {"mesh_draws", stats.meshDraws},
+          {"bricks", stats.bricks},
+          {"fragments", stats.counters.fragments},
+          {"hits", stats.counters.hits},
+          {"steps", stats.counters.steps},
+          {"brick_reads", stats.counters.brickReads},
+          {"promise_broken", stats.counters.promiseBroken},
+          {"out_of_steps", stats.counters.outOfSteps}};
+}
+
+std::size_t peakHostBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024; // Linux counts KiB
+}
+
+Json bytesJson(const GpuBytes& gpu) {
+  return {{"scene", gpu.bricks + gpu.meshes + gpu.textures + gpu.tables},
+          {"bricks", gpu.bricks},
+          {"meshes", gpu.meshes},
+          {"textures", gpu.textures},
+          {"tables", gpu.tables},
+          {"targets", gpu.targets},
+          {"host_peak", peakHostBytes()}};
+}
+
+} // namespace
+
+nlohmann::ordered_json renderStatsJson(const RenderRun& run) {
+  const RenderRequest& request = *run.request;
+  Json json;
   json["scene"] = request.scene.path.string();
   json["size"] = {request.camera.sizePixels.x, request.camera.sizePixels.y};
   json["frames"] = request.frames;
   json["seed"] = request.scene.seed;
-  json["gpu"] = {
-      {"renderer", info.renderer}, {"vendor", info.vendor}, {"version", info.version}, {"platform", info.platform}};
-  double total = 0;
-  nlohmann::ordered_json passes;
-  for (const PassTime& pass : stats.passes) {
-    passes[pass.name] = pass.milliseconds;
-    if (pass.depth == 0) total += pass.milliseconds;
-  }
-  json["milliseconds"] = {{"frame", total}, {"passes", passes}};
-  json["counts"] = {{"sdf_instances", stats.sdfInstances},
-                    {"sdf_visible", stats.sdfVisible},
-                    {"sdf_near_plane", stats.sdfInside},
-                    {"mesh_draws", stats.meshDraws},
-                    {"bricks", stats.bricks},
-                    {"fragments", stats.counters.fragments},
-                    {"hits", stats.counters.hits},
-                    {"steps", stats.counters.steps},
-                    {"brick_reads", stats.counters.brickReads},
-                    {"promise_broken", stats.counters.promiseBroken},
-                    {"out_of_steps", stats.counters.outOfSteps}};
-  json["bytes"] = {{"scene", stats.sceneBytes}, {"targets", stats.targetBytes}};
+  json["settings"] = settingsJson(run);
+  json["scene_counts"] = sceneJson(run);
+  json["gpu"] = {{"renderer", run.device->renderer}, {"vendor", run.device->vendor},
+                 {"version", run.device->version},   {"glsl", run.device->glslVersion},
+                 {"platform", run.device->platform}, {"software", run.device->isSoftware}};
+  json["timers"] = timersJson(*run.device);
+  json["seconds"] = {{"load", run.loadSeconds}, {"bake", run.bakeSeconds}, {"draw", run.drawSeconds}};
+  json["cache"] = {
+      {"folder", cacheFolderOf(request)}, {"hits", run.fields->fields.size() - run.baked}, {"misses", run.baked}};
+  json["milliseconds"] = timesJson(run);
+  json["counts"] = countsJson(run.last);
+  json["bytes"] = bytesJson(run.last.bytes);
   return json;
 }
 

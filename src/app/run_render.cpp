@@ -2,6 +2,7 @@
 #include "app/run_render.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "app/image_io.h"
 #include "app/layers_io.h"
@@ -21,17 +22,24 @@ RendererSettings settingsOf(const RenderRequest& request) {
   RendererSettings settings;
   settings.exposureEv = request.exposureEv;
   settings.view = request.view;
-  settings.countersOn = !request.stats.empty();
   return settings;
 }
 
-SceneFields bakeFields(const RenderRequest& request, const Scene& scene, const Pose& pose) {
+class Stopwatch {
+public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+SceneFieldsResult bakeFields(const RenderRequest& request, const Scene& scene, const Pose& pose) {
   const auto settings = sdfNodes(scene, request.scene.sdf, request.scene.threads);
   const std::filesystem::path cache = request.scene.cacheFolder ? *request.scene.cacheFolder : defaultCacheFolder();
   ProgressBar bar;
   SceneFieldsResult result = bakeSceneFields(scene, pose, settings, cache, bar.progress());
   for (const std::string& warning : result.warnings) printWarning(warning);
-  return std::move(result.fields);
+  return result;
 }
 
 RgbImage displayImage(const FrameLayers& layers, const std::vector<std::uint8_t>& picture) {
@@ -42,10 +50,14 @@ RgbImage displayImage(const FrameLayers& layers, const std::vector<std::uint8_t>
   return image;
 }
 
-// Renders all frames; poses, lights and camera follow the scene's time.
-void drawFrames(const RenderRequest& request, const Scene& scene, const Pose& lastPose, Renderer& renderer) {
+// Renders all frames; poses, lights and camera follow the scene's time. Times are taken where statistics are asked for:
+// each frame then ends by waiting for the GPU.
+std::vector<FrameTime> drawFrames(const RenderRequest& request, const Scene& scene, const Pose& lastPose,
+                                  Renderer& renderer) {
+  std::vector<FrameTime> times;
   for (int frame = 0; frame < request.frames; ++frame) {
     throwIfInterrupted();
+    const Stopwatch stopwatch;
     Pose pose = lastPose;
     const int before = request.frames - 1 - frame;
     if (before > 0 && request.scene.pose.seconds) {
@@ -56,16 +68,39 @@ void drawFrames(const RenderRequest& request, const Scene& scene, const Pose& la
     renderer.setPose(pose);
     if (frame == 0 || before == 0 || !scene.animations.empty()) renderer.setLighting(makeLighting(pose, request.light));
     renderer.render(makeView(scene, pose, request.camera));
+    if (request.stats.empty()) continue;
+    const double cpuMilliseconds = stopwatch.seconds() * 1e3;
+    times.push_back({cpuMilliseconds, renderer.passTimes()});
   }
+  return times;
+}
+
+// Counting slows the box pass down, so the last frame is drawn once more for it, after all times were taken.
+FrameStats countFrame(const RenderRequest& request, const View& view, Renderer& renderer) {
+  RendererSettings settings = settingsOf(request);
+  settings.countersOn = true;
+  renderer.setSettings(settings);
+  renderer.render(view);
+  return renderer.stats();
 }
 
 } // namespace
 
+std::vector<OutputPath> outputsOf(const RenderRequest& request) {
+  return {{"-o", request.output, {".png", ".exr"}},
+          {"--layers", request.layers, {".exr"}},
+          {"--stats", request.stats, {".json"}}};
+}
+
 void runRender(const RenderRequest& request) {
+  RenderRun run;
+  Stopwatch stopwatch;
   const Scene scene = importGltf(request.scene.path);
+  checkSceneFiles(scene, outputsOf(request));
+  run.loadSeconds = stopwatch.seconds();
   const Pose pose = poseScene(scene, request.scene.pose);
-  makeView(scene, pose, request.camera); // refuses a bad camera before the bake
-  makeLighting(pose, request.light);     // and bad lights
+  run.view = makeView(scene, pose, request.camera);            // refuses a bad camera before the bake
+  const Lighting lighting = makeLighting(pose, request.light); // and bad lights
   sdfNodes(scene, request.scene.sdf, request.scene.threads);
   const std::unique_ptr<Context> context = Context::createHeadless(request.device);
   GLint largest = 0;
@@ -73,24 +108,34 @@ void runRender(const RenderRequest& request) {
   if (std::max(request.camera.sizePixels.x, request.camera.sizePixels.y) > static_cast<std::uint32_t>(largest))
     throw BadInput("--size", "", "larger than this device's pictures, " + std::to_string(largest) + " pixels a side");
   printWarnings(scene);
-  const SceneFields fields = bakeFields(request, scene, pose);
+  stopwatch = {};
+  const SceneFieldsResult baked = bakeFields(request, scene, pose);
+  run.bakeSeconds = stopwatch.seconds();
+  run.baked = baked.baked;
 
+  stopwatch = {};
   Renderer renderer(context->info());
-  renderer.setScene(scene, fields);
+  renderer.setScene(scene, baked.fields);
   renderer.setSettings(settingsOf(request));
-  drawFrames(request, scene, pose, renderer);
+  run.frames = drawFrames(request, scene, pose, renderer);
   const FrameLayers layers = renderer.readLayers();
-  const FrameStats stats = renderer.stats();
+  run.drawSeconds = stopwatch.seconds();
+  const std::vector<std::uint8_t> picture = renderer.readPicture();
+  if (!request.stats.empty()) run.last = countFrame(request, run.view, renderer);
   if (const std::vector<std::string> errors = context->takeGlErrors(); !errors.empty())
     throw Failure("OpenGL: " + errors.front());
   throwIfInterrupted();
   if (!request.layers.empty()) writeLayers(request.layers, layers);
-  if (!request.stats.empty()) writeFile(request.stats, renderStatsJson(request, context->info(), stats).dump(2) + "\n");
+  if (!request.stats.empty()) {
+    run.request = &request, run.scene = &scene, run.pose = &pose;
+    run.lighting = &lighting, run.fields = &baked.fields, run.device = &context->info();
+    writeFile(request.stats, renderStatsJson(run).dump(2) + "\n");
+  }
   // The same radiance, so that an EXR is linear and whole; a PNG is the frame's own picture or view.
   if (extensionOf(request.output) == ".exr")
     writeExr(request.output, {layers.size, layers.color});
   else
-    writePng(request.output, displayImage(layers, renderer.readPicture()));
+    writePng(request.output, displayImage(layers, picture));
 }
 
 } // namespace brickfield

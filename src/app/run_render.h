@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/options.h"
+#include "app/shadow_choice.h"
 
 namespace brickfield {
 
@@ -20,10 +21,13 @@ struct RenderRequest {
   std::filesystem::path stats;  ///< .json; empty: not asked for
   int frames = 1;               ///< 1/60 s apart, the last one at the scene's time; the image is the last
   TraceChoice trace = TraceChoice::Auto;
+  ShadowChoice shadows = ShadowChoice::None;
   float exposureEv = 0;
   std::string view; ///< one of debugViews(); empty: the lit picture
   int device = -1;  ///< -1: the first that works
 };
+
+std::vector<OutputPath> outputsOf(const RenderRequest& request);
 
 /// Renders and writes everything that is asked for, the picture last.
 /// error  BadInput, Failure, Cancelled; then nothing is half-written

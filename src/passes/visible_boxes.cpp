@@ -1,11 +1,13 @@
 // The list is an instance attribute: base instances reach it without any extension.
 #include "passes/visible_boxes.h"
 
+#include "shared/sdf_params.h"
+
 namespace brickfield {
 
 VisibleBoxes::VisibleBoxes()
     : list_("visible_boxes", 0),
-      commands_("visible_box_commands", 2 * 4 * sizeof(std::uint32_t)),
+      commands_("visible_box_commands", shared::BOX_COMMANDS * sizeof(shared::BoxCommand)),
       vertexArray_("visible_boxes") {
   fit(1);
 }
@@ -20,7 +22,7 @@ void VisibleBoxes::fit(std::uint32_t instanceCount) {
 void VisibleBoxes::draw() const {
   vertexArray_.bind();
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
-  glMultiDrawArraysIndirect(GL_TRIANGLES, nullptr, 2, 0);
+  glMultiDrawArraysIndirect(GL_TRIANGLES, nullptr, shared::BOX_COMMANDS, 0);
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 

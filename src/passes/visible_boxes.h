@@ -14,7 +14,7 @@ public:
   void fit(std::uint32_t instanceCount);
 
   const Buffer& list() const { return list_; } ///< VISIBLE_* words: facing objects, then those cut by the near plane
-  const Buffer& commands() const { return commands_; } ///< two DrawArraysIndirectCommand
+  const Buffer& commands() const { return commands_; } ///< shared::BoxCommand, BOX_COMMANDS of them
 
   /// One indirect draw for all boxes, with the program in use; shaders/passes/sdf_box.vert.glsl is its vertex shader.
   void draw() const;

@@ -16,6 +16,7 @@
 #include "renderer/frame_plan.h"
 #include "renderer/frame_readback.h"
 #include "shared/bindings.h"
+#include "shared/sdf_params.h"
 
 namespace brickfield {
 
@@ -49,12 +50,13 @@ struct Renderer::Parts {
 
   std::vector<PlannedPass> plan(const FrameContext& context);
   shared::FrameParams fillParams() const;
-  std::uint32_t viewNumber() const;
+  const DebugView* chosenView() const;
+
+  template <typename Take>
+  static void listPasses(bool boxesFirst, bool isDebugView, const Take& take);
 };
 
 namespace {
-
-constexpr float kOverdrawRange = 16, kStepsRange = 64; // what settings.cpp says of the views
 
 std::vector<ResourceUse> providedByHost() {
   return {{Resource::FrameParams, Access::Upload},     {Resource::MeshVertices, Access::Upload},
@@ -79,35 +81,40 @@ Renderer::Parts::Parts(const ContextInfo& info)
       frameParams("frame_params", sizeof(shared::FrameParams)),
       counters("counters", shared::COUNTERS * sizeof(std::uint32_t)) {}
 
-std::uint32_t Renderer::Parts::viewNumber() const {
+// Null: the lit picture.
+const DebugView* Renderer::Parts::chosenView() const {
   for (const DebugView& candidate : debugViews())
-    if (candidate.name == settings.view) return candidate.number;
-  return shared::DEBUG_VIEW_NONE;
+    if (candidate.name == settings.view) return &candidate;
+  return nullptr;
 }
 
-// The frame on one screen.
+// The frame on one screen; take is handed pointers to the members, so that names need no renderer.
+template <typename Take>
+void Renderer::Parts::listPasses(bool boxesFirst, bool isDebugView, const Take& take) {
+  take(&Parts::deform); // moved vertices, before anything draws them
+  take(&Parts::clear);
+  take(&Parts::sdfCull); // which boxes, and how
+  if (boxesFirst) take(&Parts::sdfBox);
+  take(&Parts::mesh);
+  if (!boxesFirst) {
+    take(&Parts::depthCopy); // ends the rays of SDF objects behind meshes
+    take(&Parts::sdfBox);
+  }
+  take(&Parts::lighting); // also under a debug view: layers are whole whatever the picture shows
+  if (!isDebugView) {
+    take(&Parts::tone);
+  } else {
+    take(&Parts::boxOverdraw);
+    take(&Parts::debugView);
+  }
+}
+
 std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
   std::vector<PlannedPass> passes;
-  const auto add = [&](auto& pass) {
-    passes.push_back({std::decay_t<decltype(pass)>::declare(), [&pass, &context] { pass.record(context); }, 0});
-  };
-  const bool boxesFirst = settings.drawOrder == DrawOrder::BoxesFirstAllReversed;
-  add(deform); // moved vertices, before anything draws them
-  add(clear);
-  add(sdfCull); // which boxes, and how
-  if (boxesFirst) add(sdfBox);
-  add(mesh);
-  if (!boxesFirst) {
-    add(depthCopy); // ends the rays of SDF objects behind meshes
-    add(sdfBox);
-  }
-  add(lighting); // also under a debug view: layers are whole whatever the picture shows
-  if (viewNumber() == shared::DEBUG_VIEW_NONE) {
-    add(tone);
-  } else {
-    add(boxOverdraw);
-    add(debugView);
-  }
+  listPasses(settings.drawOrder == DrawOrder::BoxesFirstAllReversed, chosenView() != nullptr, [&](auto member) {
+    auto& pass = this->*member;
+    passes.push_back({pass.declare(), [&pass, &context] { pass.record(context); }, 0});
+  });
   planFrame(passes, providedByHost());
   return passes;
 }
@@ -119,12 +126,12 @@ shared::FrameParams Renderer::Parts::fillParams() const {
   params.eyeWorld = glm::vec4(view.eyeWorld, view.nearDistance);
   params.projection = {view.clipFromView[0][0], view.clipFromView[1][1], view.orthographic ? 1.0f : 0.0f,
                        std::exp2(settings.exposureEv)};
-  params.size = {view.sizePixels, scene->lightCount(), viewNumber()};
+  const DebugView* shown = chosenView();
+  params.size = {view.sizePixels, scene->lightCount(), shown ? shown->number : shared::DEBUG_VIEW_NONE};
   params.counts = {scene->sdfInstanceCount(), static_cast<std::uint32_t>(settings.forcedLevel + 1),
                    settings.maxTraceSteps, static_cast<std::uint32_t>(environment.radiance().levels())};
-  if (viewNumber() == shared::DEBUG_VIEW_STEPS) params.debugRange = {0, kStepsRange, 0, 0};
-  if (viewNumber() == shared::DEBUG_VIEW_OVERDRAW) params.debugRange = {0, kOverdrawRange, 0, 0};
-  if (viewNumber() == shared::DEBUG_VIEW_DEPTH && !boundsWorld.isEmpty()) {
+  if (shown) params.debugRange = {0, shown->redAt, 0, 0};
+  if (shown && shown->number == shared::DEBUG_VIEW_DEPTH && !boundsWorld.isEmpty()) {
     const float radius = 0.5f * glm::length(boundsWorld.extent());
     const float toCenter = glm::distance(view.eyeWorld, boundsWorld.center());
     params.debugRange = {std::max(0.0f, toCenter - radius), toCenter + radius, 0, 0};
@@ -211,24 +218,28 @@ FrameStats Renderer::stats() {
                     counts[shared::COUNTER_PROMISE_BROKEN], counts[shared::COUNTER_OUT_OF_STEPS]};
   stats.sdfInstances = parts.scene->sdfInstanceCount();
   if (stats.sdfInstances > 0) {
-    const std::vector<std::uint32_t> commands = parts.visible.commands().read<std::uint32_t>();
-    stats.sdfInside = commands[5];
-    stats.sdfVisible = commands[1] + commands[5];
+    const std::vector<shared::BoxCommand> commands = parts.visible.commands().read<shared::BoxCommand>();
+    stats.sdfInside = commands[shared::BOX_COMMAND_NEAR_PLANE].instances;
+    stats.sdfVisible = commands[shared::BOX_COMMAND_FACING].instances + stats.sdfInside;
   }
   stats.meshDraws = parts.scene->meshDrawCount();
   stats.bricks = parts.scene->atlas().brickCount();
-  stats.sceneBytes = parts.scene->bytes();
-  stats.targetBytes = parts.targets->bytes();
+  stats.bytes = {parts.scene->atlas().bytes(), parts.scene->meshes().bytes(),
+                 parts.scene->materials().bytes() + parts.environment.radiance().bytes() +
+                     parts.environment.brdf().bytes(),
+                 parts.scene->tableBytes(), parts.targets->bytes()};
   return stats;
 }
 
+std::vector<PassTime> Renderer::passTimes() { return parts_->timers.results(); }
+
 std::vector<std::string> framePassNames() {
   std::vector<std::string> names;
-  for (const PassDeclaration& pass :
-       {DeformPass::declare(), ClearPass::declare(), SdfCullPass::declare(), MeshPass::declare(),
-        DepthCopyPass::declare(), SdfBoxPass::declare(), LightingPass::declare(), TonePass::declare(),
-        BoxOverdrawPass::declare(), DebugViewPass::declare()})
-    names.push_back(pass.name);
+  for (const bool isDebugView : {false, true})
+    Renderer::Parts::listPasses(false, isDebugView, [&]<typename Pass>(Pass Renderer::Parts::*) {
+      const std::string name = Pass::declare().name;
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    });
   return names;
 }
 

@@ -25,6 +25,15 @@ struct FrameCounters {
   std::uint32_t outOfSteps = 0;    ///< rays that ran out of steps
 };
 
+/// What the GPU holds, by kind; as asked for, without what a driver adds.
+struct GpuBytes {
+  std::size_t bricks = 0;   ///< atlas, indirection and levels
+  std::size_t meshes = 0;   ///< vertices, indices, joints' influences, morph targets
+  std::size_t textures = 0; ///< of materials and of the environment
+  std::size_t tables = 0;   ///< what a pose renews: draws, instances, joints, lights
+  std::size_t targets = 0;
+};
+
 struct FrameStats {
   std::vector<PassTime> passes;
   FrameCounters counters;
@@ -33,8 +42,7 @@ struct FrameStats {
   std::uint32_t sdfInside = 0;  ///< of them, with the near plane through the box
   std::uint32_t meshDraws = 0;
   std::uint32_t bricks = 0;
-  std::size_t sceneBytes = 0;
-  std::size_t targetBytes = 0;
+  GpuBytes bytes;
 };
 
 /// Draws one scene on the context that is current when it is made; every call needs that context current. Several may
@@ -62,16 +70,21 @@ public:
   std::vector<std::uint8_t> readPicture() const;
   /// Times, counts and memory of the last frame.
   FrameStats stats();
+  /// Times of the last frame's passes alone; waits for the GPU.
+  std::vector<PassTime> passTimes();
 
   /// Compiles changed shader files anew; a line for each program that changed.
   std::vector<std::string> reloadShaders();
 
 private:
+  friend std::vector<std::string> framePassNames();
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
 
-/// Names of the passes of a frame in their order.
+/// Names of all passes that a frame may have, in the order of the frame plan: those of the lit picture, then those that
+/// only debug views add.
+/// proved by tests/render/frame_passes_test.cpp
 std::vector<std::string> framePassNames();
 
 } // namespace brickfield

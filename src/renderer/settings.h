@@ -23,6 +23,7 @@ struct DebugView {
   std::string name;
   std::string meaning;
   std::uint32_t number; ///< DEBUG_VIEW_*
+  float redAt = 0;      ///< count that is shown as the heat scale's end; 0: no counts
 };
 const std::vector<DebugView>& debugViews();
 

@@ -194,8 +194,11 @@ void ResidentScene::bindDeform() const {
   morphWeights_.bindStorage(shared::kDeformWeightBinding);
 }
 
-std::size_t ResidentScene::bytes() const {
-  return meshes_.bytes() + materials_.bytes() + atlas_.bytes() + meshDraws_.bytes() + sdfInstances_.bytes();
+std::size_t ResidentScene::tableBytes() const {
+  std::size_t sum = 0;
+  for (const Buffer* table : {&meshDraws_, &drawIndices_, &sdfInstances_, &lights_, &jointMatrices_, &morphWeights_})
+    sum += table->bytes();
+  return sum;
 }
 
 } // namespace brickfield

@@ -56,7 +56,8 @@ public:
   void bindSdfInstances() const { sdfInstances_.bindStorage(shared::kSdfInstanceBinding); }
   void bindLights() const { lights_.bindStorage(shared::kLightBinding); }
   void bindDeform() const;
-  std::size_t bytes() const;
+  /// Of what a pose renews: draws, instances, joints, weights, lights.
+  std::size_t tableBytes() const;
 
 private:
   struct PendingDraw;

@@ -21,7 +21,8 @@ struct FrameLayers {
   std::vector<glm::vec3> albedo;        ///< linear base colour
   std::vector<std::int32_t> id;         ///< node index; -1 for sky
   std::vector<SurfaceKind> kind;
-  std::vector<float> steps; ///< trace steps; the reference leaves it empty
+  std::vector<float>
+      steps; ///< trace steps of SDF objects; 0 elsewhere and in the reference, which steps through nothing
 };
 
 } // namespace brickfield

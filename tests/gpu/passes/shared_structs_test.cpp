@@ -80,6 +80,9 @@ TEST_F(SharedStructs, RowsOfSdfObjects) {
               MEMBER(SdfInstance, boxMax), MEMBER(SdfInstance, ids)});
   expectRows("SdfLevel", "sdf_params.h", sizeof(shared::SdfLevel),
              {MEMBER(SdfLevel, cells), MEMBER(SdfLevel, scale), MEMBER(SdfLevel, attributes)});
+  expectRows("BoxCommand", "sdf_params.h", sizeof(shared::BoxCommand),
+             {MEMBER(BoxCommand, vertices), MEMBER(BoxCommand, instances), MEMBER(BoxCommand, firstVertex),
+              MEMBER(BoxCommand, baseInstance)});
 }
 
 // Values travel: a struct filled here is read member by member there.

@@ -7,30 +7,21 @@
 #include <gtest/gtest.h>
 
 #include "app/image_io.h"
-#include "core/error.h"
 #include "core/files.h"
 #include "tests/support/data.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace brickfield {
 namespace {
 
+using test::refusalOf;
 using ::testing::HasSubstr;
 using namespace std::string_literals;
 
 const std::string kHead = "#?RADIANCE\n# made by hand\nFORMAT=32-bit_rle_rgbe\n\n";
 
 Environment decode(const std::string& file) { return decodeRadianceHdr(std::as_bytes(std::span(file)), "test.hdr"); }
-
-template <typename Function>
-std::string refusalOf(Function function) {
-  try {
-    function();
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 /// 16 x 1: red is one run of 16 times 128, green two literals runs, blue zero, exponent 129 (scale 2^-7).
 std::string runCoded() {

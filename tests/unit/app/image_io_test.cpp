@@ -7,27 +7,18 @@
 #include <gtest/gtest.h>
 
 #include "app/tone_curve.h"
-#include "core/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace brickfield {
 namespace {
 
+using test::refusalOf;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 constexpr float kHalfCode = 0.5f / 255.0f + 1e-6f; // rounding to 8 bits
-
-template <typename Function>
-std::string refusalOf(Function function) {
-  try {
-    function();
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(Png, RoundTripIsExactToHalfACode) {
   const test::TemporaryFolder folder;

@@ -5,25 +5,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace brickfield {
 namespace {
 
+using test::refusalOf;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-template <typename Function>
-std::string refusalOf(Function function) {
-  try {
-    function();
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 /// A mesh on nodes "Dragon Head" (extras: SDF of 64 voxels), "Dragon Tail", "Floor"; "Root" has none.
 Scene dragonScene() {

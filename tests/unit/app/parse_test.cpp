@@ -4,23 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
+#include "tests/support/refusal.h"
 
 namespace brickfield {
 namespace {
 
+using test::refusalOf;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-template <typename Function>
-std::string refusalOf(Function function) {
-  try {
-    function();
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(ParseSize, ReadsBothSidesUpToTheLimit) {
   EXPECT_EQ(parseSize("--size", "1280x720"), glm::uvec2(1280, 720));

@@ -1,0 +1,48 @@
+// One list of words for both commands, so that one set of flags serves them.
+#include "app/shadow_choice.h"
+
+#include <algorithm>
+#include <array>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/options.h"
+#include "core/error.h"
+
+namespace brickfield {
+
+namespace {
+
+constexpr std::array<const char*, 3> kRenderedWords{"field", "csm", "csm+field"};
+
+/// True for none, false for a word of the renderer's shadows.
+bool isNone(const std::string& flag, const std::string& text) {
+  if (text == "none") return true;
+  if (std::ranges::find(kRenderedWords, text) != kRenderedWords.end()) return false;
+  throw BadInput(flag, fmt::format("\"{}\"", text), "is none of field, csm, csm+field and none");
+}
+
+} // namespace
+
+void addRenderShadows(CLI::App& command, ShadowChoice& choice) {
+  choice = ShadowChoice::None;
+  addValue(command, "--shadows", "Shadows of the lights: none, the only kind that the renderer has",
+           [](auto& flag, auto& text) {
+             if (!isNone(flag, text))
+               throw BadInput(flag, fmt::format("\"{}\"", text), "is not drawn by this version, only none is");
+           })
+      ->type_name("KIND");
+}
+
+void addReferenceShadows(CLI::App& command, ShadowChoice& choice) {
+  choice = ShadowChoice::Traced;
+  addValue(command, "--shadows",
+           "none, or a kind that render takes (field, csm, csm+field): here each means traced ones, the default",
+           [&](auto& flag, auto& text) { choice = isNone(flag, text) ? ShadowChoice::None : ShadowChoice::Traced; })
+      ->type_name("KIND");
+}
+
+const char* shadowName(ShadowChoice choice) { return choice == ShadowChoice::None ? "none" : "traced"; }
+
+} // namespace brickfield

@@ -1,0 +1,26 @@
+// The flag --shadows, which render and reference share.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+namespace brickfield {
+
+/// What `render --shadows` can be told. Field and Csm and their union are refused until the renderer has them.
+enum class ShadowChoice { Traced, None };
+
+/// --shadows of render: none, which is its default.
+/// error  BadInput at parsing: field, csm or csm+field, which the renderer does not have yet; any other word
+void addRenderShadows(CLI::App& command, ShadowChoice& choice);
+
+/// --shadows of reference: none, or any of render's other words, for all of which it traces exact ones; these are its
+/// default.
+void addReferenceShadows(CLI::App& command, ShadowChoice& choice);
+
+/// "none" or "traced"
+const char* shadowName(ShadowChoice choice);
+
+} // namespace brickfield

@@ -1,0 +1,99 @@
+// That `list passes` tells of the frame itself, and that its counts and its memory are those of what was drawn.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/support/gl_fixture.h"
+#include "tests/support/hand_scenes.h"
+#include "tests/support/scene_frames.h"
+
+namespace brickfield::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class FramePasses : public GlTest {};
+
+std::vector<std::string> namesOf(const std::vector<PassTime>& times) {
+  std::vector<std::string> names;
+  for (const PassTime& time : times) names.push_back(time.name);
+  return names;
+}
+
+TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
+  const TestScene scene(makeInterpenetration(), "Torus", 16);
+  const auto renderer = scene.makeRenderer(context().info());
+  const View view = scene.autoView({64, 36});
+  const std::vector<std::string> listed = framePassNames();
+  std::vector<std::string> seen;
+  for (const char* shown : {"", "steps"}) {
+    RendererSettings settings;
+    settings.view = shown;
+    renderer->setSettings(settings);
+    renderer->render(view);
+    const std::vector<std::string> names = namesOf(renderer->passTimes());
+    auto from = listed.begin();
+    for (const std::string& name : names) {
+      from = std::find(from, listed.end(), name);
+      ASSERT_NE(from, listed.end()) << name << " is not listed, or before its turn";
+    }
+    seen.insert(seen.end(), names.begin(), names.end());
+  }
+  for (const std::string& name : listed)
+    EXPECT_NE(std::find(seen.begin(), seen.end(), name), seen.end()) << name << " is listed and never runs";
+}
+
+// What --view says of its colours is what the shader is told: red, no blue, from the named count on.
+TEST_F(FramePasses, HeatViewsNameTheirRange) {
+  for (const DebugView& view : debugViews())
+    if (view.redAt > 0)
+      EXPECT_THAT(view.meaning, HasSubstr(fmt::format("red {}", view.redAt)));
+    else
+      EXPECT_THAT(view.meaning, ::testing::Not(HasSubstr("red")));
+}
+
+// A torus and a sphere that pierces it: what is drawn, and what of it by its far faces because the eye is inside.
+TEST_F(FramePasses, CountsAreThoseOfTheBoxes) {
+  const TestScene scene(makeInterpenetration(), "all", 16);
+  const auto renderer = scene.makeRenderer(context().info());
+  renderer->render(scene.view({0.25f, 0.1f, 0.0f}, {0.25f, 0.1f, -3}, {64, 36}));
+  FrameStats stats = renderer->stats();
+  EXPECT_EQ(stats.sdfInstances, 2u);
+  EXPECT_EQ(stats.sdfVisible, 2u);
+  EXPECT_EQ(stats.sdfInside, 2u) << "the eye is inside both boxes";
+  renderer->render(scene.view({0, 0, 5}, {0, 0, 0}, {64, 36}));
+  stats = renderer->stats();
+  EXPECT_EQ(stats.sdfVisible, 2u);
+  EXPECT_EQ(stats.sdfInside, 0u);
+  renderer->render(scene.view({0, 0, 5}, {0, 0, 10}, {64, 36}));
+  stats = renderer->stats();
+  EXPECT_EQ(stats.sdfVisible, 0u);
+  renderer->render(scene.view({-0.7f, 0, 0.1f}, {3, 0, 0.1f}, {64, 36}));
+  stats = renderer->stats();
+  EXPECT_EQ(stats.sdfVisible, 2u);
+  EXPECT_EQ(stats.sdfInside, 1u) << "the eye is inside the torus' box alone";
+}
+
+// Targets: 4 + 4 depths, 8 normals, 4 albedo, 4 material, 4 emission, 4 id, 8 trace, 8 colour, 4 picture, 2 overdraw.
+TEST_F(FramePasses, MemoryIsCountedByKind) {
+  const TestScene scene(makeInterpenetration(), "Torus", 32);
+  const auto renderer = scene.makeRenderer(context().info());
+  renderer->render(scene.autoView({64, 36}));
+  const GpuBytes bytes = renderer->stats().bytes;
+  EXPECT_EQ(bytes.targets, 64u * 36u * 54u);
+  std::size_t vertices = 0, indices = 0;
+  for (const Mesh& mesh : scene.scene().meshes)
+    for (const Primitive& primitive : mesh.primitives)
+      vertices += primitive.positions.size(), indices += primitive.indices.size();
+  EXPECT_GE(bytes.meshes, vertices * 48 + indices * 4);
+  EXPECT_LT(bytes.meshes, vertices * 48 + indices * 4 + 4096);
+  std::size_t bricks = 0;
+  for (const BrickLevel& level : scene.fields().fields[0].levels) bricks += level.brickCount();
+  EXPECT_GE(bytes.bricks, bricks * 512);
+  EXPECT_GT(bytes.textures, 0u);
+  EXPECT_GT(bytes.tables, 0u);
+}
+
+} // namespace
+} // namespace brickfield::test
