@@ -36,6 +36,8 @@ void TestScene::prepare(const std::string& sdf, int resolution, std::optional<do
   fields_ = bakeSceneFields(*scene_, pose_, sdfNodes(*scene_, sdfRequest, 0), cache, {}).fields;
 }
 
+void TestScene::darkenEnvironment() { lighting_.environment = {{16, 8}, std::vector<glm::vec3>(128, glm::vec3(0))}; }
+
 View TestScene::autoView(glm::uvec2 sizePixels) const {
   CameraRequest request;
   request.camera = "auto";
@@ -52,12 +54,13 @@ View TestScene::view(glm::vec3 eye, glm::vec3 target, glm::uvec2 sizePixels, flo
   return makeView(*scene_, pose_, request);
 }
 
-FrameLayers TestScene::reference(const View& view) const {
+FrameLayers TestScene::reference(const View& view, bool shadows) const {
   ReferenceRequest request;
   request.scene = scene_.get();
   request.pose = &pose_;
   request.view = &view;
   request.lighting = &lighting_;
+  request.shadows = shadows;
   request.isSdf = [this](int node) { return isSdf(node); };
   return traceReference(request);
 }

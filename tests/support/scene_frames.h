@@ -27,13 +27,16 @@ public:
   const Scene& scene() const { return *scene_; }
   const Pose& pose() const { return pose_; }
   const Lighting& lighting() const { return lighting_; }
+  /// Its lights stay; the surroundings are black.
+  void darkenEnvironment();
   const SceneFields& fields() const { return fields_; }
   bool isSdf(int node) const { return fields_.fieldOfNode[static_cast<std::size_t>(node)] >= 0; }
 
   View autoView(glm::uvec2 sizePixels) const;
   View view(glm::vec3 eye, glm::vec3 target, glm::uvec2 sizePixels, float fovDegrees = 45) const;
 
-  FrameLayers reference(const View& view) const;
+  /// shadows false: lit as the renderer lights, which has none
+  FrameLayers reference(const View& view, bool shadows = true) const;
   /// Uploads into a renderer of its own on the current context.
   std::unique_ptr<Renderer> makeRenderer(const ContextInfo& info, const RendererSettings& settings = {}) const;
 
