@@ -21,7 +21,7 @@ protected:
   }
 };
 
-// Pixels whose 5x5 neighbourhood holds two kinds.
+// Pixels with another kind within `reach` pixels along each axis.
 std::vector<bool> nearKindBorder(const FrameLayers& layers, int reach) {
   const int width = static_cast<int>(layers.size.x), height = static_cast<int>(layers.size.y);
   std::vector<bool> near(layers.kind.size(), false);
@@ -121,23 +121,62 @@ TEST_F(FrameTruths, ConservativeDepthKeepsItsPromise) {
   }
 }
 
-// Through the hole of a torus, into its bounding box and its tube, and out at the other side.
-TEST_F(FrameTruths, CameraFliesThroughTheBox) {
-  const TestScene scene(makeTorusAlone(), "Torus", 96);
-  const auto renderer = scene.makeRenderer(context().info());
+class Flight : public FrameTruths {
+protected:
+  Flight() : scene_(makeTorusAlone(), "Torus", 96) {
+    scene_.darkenEnvironment(); // colour is not looked at, and the reference would filter a sky at each step
+    renderer_ = scene_.makeRenderer(context().info());
+  }
+
+  // What is asked of still pictures holds at each step, and what differs lies within a pixel of the silhouette.
+  void expectAgreement(const std::string& step, glm::vec3 eye, glm::vec3 target) {
+    const View view = scene_.view(eye, target, {320, 180}, 70);
+    renderer_->render(view);
+    const FrameLayers frame = renderer_->readLayers(), reference = scene_.reference(view);
+    const Fidelity fidelity = measureFidelity(scene_, frame, reference);
+    const std::string said = step + ": " + describe(fidelity);
+    const std::vector<bool> border = nearKindBorder(reference, 1);
+    std::size_t away = 0;
+    for (std::size_t p = 0; p < border.size(); ++p) away += frame.kind[p] != reference.kind[p] && !border[p];
+    EXPECT_EQ(away, 0u) << "pixels differ beside the silhouette, " << said;
+    EXPECT_GE(fidelity.silhouetteIou, 0.995) << said;
+    EXPECT_LE(fidelity.depthMedian, 0.03) << said;
+    EXPECT_LE(fidelity.depthP99, 0.3) << said;
+    EXPECT_LE(fidelity.normalMedianDegrees, 3) << said;
+    if (fidelity.silhouetteIou < worstIou_) worstIou_ = fidelity.silhouetteIou, worstSilhouette_ = said;
+    if (fidelity.depthP99 > worstDepth_) worstDepth_ = fidelity.depthP99, worstDepthStep_ = said;
+  }
+  void printWorst() const {
+    fmt::print("worst silhouette at {}\nworst depth at {}\n", worstSilhouette_, worstDepthStep_);
+  }
+
+  TestScene scene_;
+  std::unique_ptr<Renderer> renderer_;
+  double worstIou_ = 2, worstDepth_ = -1;
+  std::string worstSilhouette_, worstDepthStep_;
+};
+
+// From outside the box through the hole, close past the tube, out on the far side, always looking at the torus.
+TEST_F(Flight, ThroughTheHole) {
   constexpr int kSteps = 64;
   for (int step = 0; step < kSteps; ++step) {
     const float along = static_cast<float>(step) / (kSteps - 1);
-    // From outside the box through the hole, close past the tube, out on the far side, always looking at the torus.
-    const glm::vec3 eye(0.25f * std::sin(6.0f * along), 0.1f - 0.2f * along, 1.6f - 3.2f * along);
-    const glm::vec3 target(0.5f * std::cos(9.0f * along), 0.3f * std::sin(7.0f * along), 0.0f);
-    const View view = scene.view(eye, target, {320, 180}, 70);
-    renderer->render(view);
-    const FrameLayers frame = renderer->readLayers(), reference = scene.reference(view);
-    const Fidelity fidelity = measureFidelity(scene, frame, reference);
-    EXPECT_GE(fidelity.silhouetteIou, 0.985) << "step " << step << " " << describe(fidelity);
-    EXPECT_LE(fidelity.depthMedian, 0.05) << "step " << step << " " << describe(fidelity);
+    expectAgreement(fmt::format("step {}", step),
+                    {0.25f * std::sin(6.0f * along), 0.1f - 0.2f * along, 1.6f - 3.2f * along},
+                    {0.5f * std::cos(9.0f * along), 0.3f * std::sin(7.0f * along), 0.0f});
   }
+  printWorst();
+}
+
+// Along the torus' side into the tube itself: from within, single-sided surfaces are invisible to both.
+TEST_F(Flight, ThroughTheTube) {
+  constexpr int kSteps = 64;
+  for (int step = 0; step < kSteps; ++step) {
+    const float along = static_cast<float>(step) / (kSteps - 1);
+    expectAgreement(fmt::format("step {}", step), {0.58f, 0.03f, 0.9f - 1.3f * along},
+                    {0.5f * std::cos(5.0f * along), 0.6f * std::sin(5.0f * along), -0.5f * along});
+  }
+  printWorst();
 }
 
 // Scale (1, 3, 0.2), a shear and a mirror on the node; depth in the smallest voxel.
