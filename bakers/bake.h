@@ -57,6 +57,7 @@ struct BakeStats {
 struct BakeResult {
   BrickField field;
   BakeStats stats;
+  std::string cacheWarning; ///< by bakeCached: the entry that could not be read or the folder that holds no cache
 };
 
 /// Bakes all levels.
@@ -74,9 +75,13 @@ BakeResult bakeField(const BakeInput& input, const BakeSettings& settings, const
 /// Hash of all that decides the bytes of a bake: geometry, materials and textures used, settings, baker version.
 Hash128 bakeHash(const BakeInput& input, const BakeSettings& settings);
 
-/// Reads OUT of the cache folder by content hash or bakes and stores it there. A damaged entry is baked anew.
-/// cacheFolder empty: no cache; made if missing; one that cannot be written caches nothing. Safe against several
-/// processes at once.
+/// Reads OUT of the cache folder by content hash or bakes and stores it there. An entry that cannot be read (damaged,
+/// no regular file, no permission) is baked anew; nothing waits for it. Safe against several processes at once.
+///
+/// cacheFolder empty: no cache; made if missing; one that cannot be written caches nothing
+/// returns     with cacheWarning where the cache was no help
+/// error       as bakeField; never because of the cache
+/// proved by   tests/bake/bakers/bake_cache_test.cpp
 BakeResult bakeCached(const BakeInput& input, const BakeSettings& settings, const std::filesystem::path& cacheFolder,
                       const Progress& progress = {}, bool* wasCached = nullptr);
 

@@ -1,10 +1,14 @@
 // Content hash and cache. An entry is HASH.bricks; it is written beside and renamed, so another process sees a whole
-// entry or none. What cannot be read is baked anew and replaced; what cannot be written is not cached.
+// entry or none. What cannot be read is baked anew and replaced; what cannot be written is not cached. Neither is
+// silent.
 #include <chrono>
 #include <cstdlib>
 
+#include <fmt/format.h>
+
 #include "bakers/bake.h"
 #include "core/error.h"
+#include "core/files.h"
 #include "field/bricks_file.h"
 
 namespace brickfield {
@@ -41,25 +45,40 @@ void addMaterial(Hasher& hasher, const Scene& scene, const Material& material) {
   addTexture(hasher, scene, material.emissionTexture);
 }
 
-std::optional<BrickField> readEntry(const std::filesystem::path& path, const Hash128& hash) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) return std::nullopt;
+/// The cached field, or why there is none that can be used.
+struct CacheEntry {
+  std::optional<BrickField> field;
+  std::string warning; ///< names the file; empty where there is none, as before every first bake
+};
+
+CacheEntry readEntry(const std::filesystem::path& path, const Hash128& hash) {
+  CacheEntry entry;
+  std::error_code ec;
+  if (std::filesystem::symlink_status(path, ec).type() == std::filesystem::file_type::not_found) return entry;
   try {
-    BrickField field = readBricksFile(path);
-    if (field.sourceHash == hash) return field;
-  } catch (const BadInput&) {
-    // damaged, or of another version
+    entry.field = readBricksFile(path);
+    if (entry.field->sourceHash == hash) return entry;
+    entry.field.reset();
+    entry.warning = path.string() + ": holds another bake";
+  } catch (const BadInput& error) {
+    entry.warning = error.what();
   }
-  return std::nullopt;
+  entry.warning += "; baked anew";
+  return entry;
 }
 
-void writeEntry(const std::filesystem::path& path, const BrickField& field) {
-  std::error_code ignored;
-  std::filesystem::create_directories(path.parent_path(), ignored);
+/// returns why nothing was stored, naming the folder; empty: it was
+std::string writeEntry(const std::filesystem::path& path, const BrickField& field) {
+  const std::filesystem::path folder = path.parent_path();
+  std::error_code ec;
+  std::filesystem::create_directories(folder, ec);
+  if (ec) return fmt::format("{}: {}; nothing is cached", folder.string(), ec.message());
   try {
     writeBricksFile(path, field);
+    return "";
   } catch (const BadInput&) {
-    // a folder that cannot be written holds no cache
+    const std::string obstacle = obstacleToWriting(path);
+    return fmt::format("{}: {}; nothing is cached", folder.string(), obstacle.empty() ? "cannot be written" : obstacle);
   }
 }
 
@@ -85,9 +104,10 @@ BakeResult bakeCached(const BakeInput& input, const BakeSettings& settings, cons
   const auto start = std::chrono::steady_clock::now();
   const Hash128 hash = bakeHash(input, settings);
   const std::filesystem::path path = cacheFolder / (hash.text() + ".bricks");
-  if (std::optional<BrickField> field = readEntry(path, hash)) {
+  CacheEntry entry = readEntry(path, hash);
+  if (entry.field) {
     BakeResult result;
-    result.field = std::move(*field);
+    result.field = std::move(*entry.field);
     result.stats.sign = "cached";
     for (const BrickLevel& level : result.field.levels) result.stats.bricks += level.brickCount();
     result.stats.bytes = fieldBytes(result.field);
@@ -96,7 +116,8 @@ BakeResult bakeCached(const BakeInput& input, const BakeSettings& settings, cons
     return result;
   }
   BakeResult result = bakeField(input, settings, progress);
-  writeEntry(path, result.field);
+  result.cacheWarning = writeEntry(path, result.field);
+  if (!entry.warning.empty()) result.cacheWarning = std::move(entry.warning); // the cause, where both go wrong
   return result;
 }
 

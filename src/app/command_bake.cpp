@@ -62,8 +62,10 @@ nlohmann::json statsJson(const BakeRequest& request, const BakeSettings& setting
 }
 
 int bake(const BakeRequest& request) {
-  checkOutputs({{"-o", request.output, {".bricks"}}, {"--stats", request.stats, {".json"}}}, {request.meshPath});
+  const std::vector<OutputPath> outputs{{"-o", request.output, {".bricks"}}, {"--stats", request.stats, {".json"}}};
+  checkOutputs(outputs, {request.meshPath});
   const Scene scene = importGltf(request.meshPath);
+  checkSceneFiles(scene, outputs);
   const Pose pose = poseScene(scene, {});
   const PosedInstance& instance = chooseMesh(scene, pose, request.node);
   BakeSettings settings =

@@ -31,6 +31,10 @@ struct InspectOptions {
   std::optional<SlicePlane> slice;
 };
 
+std::vector<OutputPath> outputsOf(const InspectOptions& options) {
+  return {{"-o", options.output, {".png"}}, {"--json", options.json, {".json"}}};
+}
+
 nlohmann::json arrayOf(glm::vec3 v) { return {v.x, v.y, v.z}; }
 
 nlohmann::json figuresOf(const InspectOptions& options, const BrickField& field) {
@@ -75,6 +79,7 @@ void print(const InspectOptions& options, const BrickField& field) {
 nlohmann::json errorAgainst(const InspectOptions& options, const BrickField& field) {
   constexpr std::uint64_t kMostSamples = 200000; // under a second, and a mean to well below a hundredth of itself
   const Scene scene = importGltf(options.against);
+  checkSceneFiles(scene, outputsOf(options));
   const Pose pose = poseScene(scene, {});
   const FieldError error =
       compareWithMesh(field, bakeInputOf(scene, chooseMesh(scene, pose, options.node)), kMostSamples);
@@ -89,8 +94,7 @@ nlohmann::json errorAgainst(const InspectOptions& options, const BrickField& fie
 #endif
 
 int inspect(const InspectOptions& options) {
-  checkOutputs({{"-o", options.output, {".png"}}, {"--json", options.json, {".json"}}},
-               {options.bricks, options.against});
+  checkOutputs(outputsOf(options), {options.bricks, options.against});
   if (options.slice.has_value() == options.output.empty())
     throw BadInput(options.output.empty() ? "--slice" : "-o", "",
                    options.output.empty() ? "needs -o" : "needs --slice");

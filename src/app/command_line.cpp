@@ -2,6 +2,9 @@
 #include "app/command_line.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <new>
 
 #include <CLI/CLI.hpp>
@@ -80,13 +83,16 @@ int parseAndRun(std::vector<std::string> arguments) {
 
 int runCommandLine(std::vector<std::string> arguments) {
   try {
-    return parseAndRun(std::move(arguments));
+    const int exitCode = parseAndRun(std::move(arguments));
+    if (std::fflush(stdout) != 0)
+      throw Failure(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
+    return exitCode;
   } catch (const BadInput& error) {
     printError(error.what());
     return kBadInput;
   } catch (const Cancelled& error) {
     printError(error.what());
-    return kInterrupted;
+    return interruptedExitCode();
   } catch (const std::bad_alloc&) {
     printError("out of memory");
   } catch (const std::exception& error) {

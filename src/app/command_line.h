@@ -6,8 +6,9 @@
 
 namespace brickfield {
 
-/// Exit codes; others script against them. A comparison over its tolerance is kOurFailure.
-enum ExitCode : int { kDone = 0, kOurFailure = 1, kBadInput = 2, kInterrupted = 130 };
+/// Exit codes; others script against them. A comparison over its tolerance is kOurFailure. After SIGINT it is 130,
+/// after SIGTERM 143.
+enum ExitCode : int { kDone = 0, kOurFailure = 1, kBadInput = 2 };
 
 /// Runs the program.
 ///

@@ -28,7 +28,7 @@ int printPasses() {
 int printCameras(const std::filesystem::path& path) {
   const Scene scene = importGltf(path);
   const Pose pose = poseScene(scene, {});
-  printWarnings(scene);
+  // No warnings: the importer's are on what is drawn; a wrong camera is an error.
   for (std::size_t i = 0; i < pose.cameraNodes.size(); ++i) {
     const int node = pose.cameraNodes[i];
     const Camera& camera = scene.cameras[static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(node)].camera)];

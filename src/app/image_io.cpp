@@ -30,11 +30,13 @@ std::string extensionOf(const fs::path& path) {
 
 namespace {
 
-void checkExtension(const fs::path& path, const std::vector<std::string>& extensions) {
+void checkExtension(const fs::path& path, std::string_view flag, const std::vector<std::string>& extensions) {
   const std::string extension = extensionOf(path);
   if (extensions.empty() || std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
-  throw BadInput(path.string(), "",
-                 fmt::format("unknown extension \"{}\", expected {}", extension, fmt::join(extensions, " or ")));
+  throw BadInput(path.string(), flag,
+                 extension.empty()
+                     ? fmt::format("has no extension, expected {}", fmt::join(extensions, " or "))
+                     : fmt::format("unknown extension \"{}\", expected {}", extension, fmt::join(extensions, " or ")));
 }
 
 } // namespace
@@ -42,15 +44,13 @@ void checkExtension(const fs::path& path, const std::vector<std::string>& extens
 void checkOutputPath(const fs::path& path, std::string_view flag, const std::vector<std::string>& extensions) {
   if (path.empty()) throw BadInput(flag, "", "names no file");
   std::error_code ec;
-  if (!path.has_filename() || fs::is_directory(path, ec))
-    throw BadInput(path.string(), flag, "names a folder, not a file");
-  checkExtension(path, extensions);
-  if (extensionOf(path) == ".exr") requireExr(path);
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, ec)) throw BadInput(path.string(), flag, "its folder does not exist");
-  if (fs::is_regular_file(path, ec) || !fs::exists(path, ec)) {
-    if (::access(folder.c_str(), W_OK) != 0) throw BadInput(path.string(), flag, "its folder cannot be written");
-  }
+  if (fs::is_directory(path, ec)) throw BadInput(path.string(), flag, "names a folder, not a file");
+  // Devices have no extension to choose a format by; they take the first.
+  const bool isDevice = path.extension().empty() && isWrittenInPlace(path);
+  if (!isDevice) checkExtension(path, flag, extensions);
+  if (isDevice ? extensions == std::vector<std::string>{".exr"} : extensionOf(path) == ".exr") requireExr(path);
+  if (const std::string obstacle = obstacleToWriting(path); !obstacle.empty())
+    throw BadInput(path.string(), flag, obstacle);
 }
 
 void checkInputPath(const fs::path& path, const std::vector<std::string>& extensions) {
@@ -59,7 +59,7 @@ void checkInputPath(const fs::path& path, const std::vector<std::string>& extens
   if (!fs::exists(status)) throw BadInput(path.string(), "", "no such file");
   if (!fs::is_regular_file(status)) throw BadInput(path.string(), "", "not a regular file");
   if (::access(path.c_str(), R_OK) != 0) throw BadInput(path.string(), "", "cannot be read");
-  checkExtension(path, extensions);
+  checkExtension(path, "", extensions);
 }
 
 void writePng(const fs::path& path, const RgbImage& display) {

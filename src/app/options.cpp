@@ -9,6 +9,7 @@
 #include "app/image_io.h"
 #include "app/parse.h"
 #include "core/error.h"
+#include "core/files.h"
 
 namespace brickfield {
 
@@ -64,9 +65,9 @@ void addCameraOptions(CLI::App& command, CameraRequest& request) {
   })->type_name("WxH");
   command.add_option("--camera", request.camera, "Camera by name or number, or auto, which frames the scene")
       ->type_name("NAME");
-  addValue(command, "--eye", "Where the camera stands, metres; with --target", [&](auto& flag, auto& text) {
-    request.eye = parseVector(flag, text);
-  })->type_name("X,Y,Z");
+  addValue(command, "--eye", "Where the camera stands, metres; with --target; the lens stays that of --camera",
+           [&](auto& flag, auto& text) { request.eye = parseVector(flag, text); })
+      ->type_name("X,Y,Z");
   addValue(command, "--target", "What the camera looks at, metres; with --eye", [&](auto& flag, auto& text) {
     request.target = parseVector(flag, text);
   })->type_name("X,Y,Z");
@@ -78,6 +79,8 @@ void addCameraOptions(CLI::App& command, CameraRequest& request) {
 void checkCamera(const CameraRequest& request) {
   if (request.eye && !request.target) throw BadInput("--eye", "", "needs --target");
   if (request.target && !request.eye) throw BadInput("--target", "", "needs --eye");
+  if (request.eye && request.camera == "auto")
+    throw BadInput("--camera", "auto", "places the camera itself, --eye and --target do it too: give one of the two");
   if (request.eye && *request.eye == *request.target) throw BadInput("--target", "", "is the same point as --eye");
 }
 
@@ -163,20 +166,40 @@ std::vector<std::optional<BakeSettings>> sdfNodes(const Scene& scene, const SdfR
   return settings;
 }
 
+namespace {
+
+/// Whatever way the two are written; a file that is not there yet counts as well.
+bool isSameFile(const fs::path& a, const fs::path& b) {
+  std::error_code ec;
+  if (fs::equivalent(a, b, ec) && !ec) return true;
+  const fs::path canonicalA = fs::weakly_canonical(fs::absolute(a, ec), ec);
+  if (ec) return false;
+  const fs::path canonicalB = fs::weakly_canonical(fs::absolute(b, ec), ec);
+  return !ec && canonicalA == canonicalB;
+}
+
+} // namespace
+
 void checkOutputs(const std::vector<OutputPath>& outputs, const std::vector<fs::path>& inputs) {
   for (const OutputPath& output : outputs) {
     if (output.path.empty()) continue;
     checkOutputPath(output.path, output.flag, output.extensions);
     for (const fs::path& input : inputs)
-      if (!input.empty() && fs::weakly_canonical(input) == fs::weakly_canonical(output.path))
+      if (!input.empty() && isSameFile(input, output.path))
         throw BadInput(output.path.string(), output.flag, "is a file that is read");
     for (const OutputPath& other : outputs) {
       if (&other == &output) break;
-      if (!other.path.empty() && fs::weakly_canonical(other.path) == fs::weakly_canonical(output.path) &&
-          output.path != "/dev/null")
+      if (!other.path.empty() && isSameFile(other.path, output.path) && !isWrittenInPlace(output.path))
         throw BadInput(output.path.string(), output.flag, fmt::format("is the file of {} too", other.flag));
     }
   }
+}
+
+void checkSceneFiles(const Scene& scene, const std::vector<OutputPath>& outputs) {
+  for (const OutputPath& output : outputs)
+    for (const fs::path& file : scene.files)
+      if (!output.path.empty() && isSameFile(file, output.path))
+        throw BadInput(output.path.string(), output.flag, fmt::format("is a file of {}", scene.name));
 }
 
 SignMethod parseSign(const std::string& flag, const std::string& text) {

@@ -47,7 +47,7 @@ void addSceneOptions(CLI::App& command, SceneRequest& request);
 
 /// --size --camera --eye --target --fov
 void addCameraOptions(CLI::App& command, CameraRequest& request);
-/// error BadInput: --eye without --target or the other way round, both the same point
+/// error BadInput: --eye without --target or the other way round, both the same point, or beside --camera auto
 void checkCamera(const CameraRequest& request);
 
 struct LightRequest {
@@ -78,10 +78,13 @@ struct OutputPath {
   std::filesystem::path path; ///< empty: not asked for
   std::vector<std::string> extensions;
 };
-/// Checks each output that is asked for, and that none is another one or one of the files that are read (empty paths
-/// count as none), which would overwrite it.
+/// Checks before the long work that each output that is asked for can be written, and that none is another one or one
+/// of the files that are read (empty paths count as none), which would overwrite it. A device may be named twice.
 /// error  BadInput that names file and flag
 void checkOutputs(const std::vector<OutputPath>& outputs, const std::vector<std::filesystem::path>& inputs);
+/// Checks that no output is a buffer or an image of the scene, read or not.
+/// error  BadInput that names file, flag and scene
+void checkSceneFiles(const Scene& scene, const std::vector<OutputPath>& outputs);
 
 /// "auto", "winding", "parity", "pseudonormal", "two-sided". error BadInput that names the flag
 SignMethod parseSign(const std::string& flag, const std::string& text);

@@ -1,6 +1,7 @@
 // Nodes that share mesh, pose and settings share a field: the content hash of the bake tells.
 #include "app/scene_fields.h"
 
+#include <algorithm>
 #include <map>
 
 #include "core/error.h"
@@ -46,6 +47,11 @@ SceneFieldsResult bakeSceneFields(const Scene& scene, const Pose& pose,
     if (isNew) {
       bool wasCached = false;
       BakeResult baked = bakeCached(input, *settingsOfNode[node], cacheFolder, progress, &wasCached);
+      // A folder without room for a cache says so for every field; once is enough.
+      auto& warnings = result.warnings;
+      if (!baked.cacheWarning.empty() &&
+          std::find(warnings.begin(), warnings.end(), baked.cacheWarning) == warnings.end())
+        warnings.push_back(std::move(baked.cacheWarning));
       result.fields.fields.push_back(std::move(baked.field));
       if (!wasCached) ++result.baked;
     }

@@ -14,8 +14,9 @@ namespace brickfield {
 
 struct SceneFieldsResult {
   SceneFields fields;
-  std::vector<std::string> warnings; ///< a line for each node that stays a mesh, and why
-  std::size_t baked = 0;             ///< fields that were not in the cache
+  std::vector<std::string>
+      warnings;          ///< a line for each node that stays a mesh, and why, and for each fault of the cache
+  std::size_t baked = 0; ///< fields that were not in the cache
 };
 
 /// settingsOfNode  as sdfNodes() gives them: nothing where a node is drawn as a mesh

@@ -14,9 +14,14 @@ namespace brickfield {
 namespace {
 
 std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+std::atomic<int> interruptingSignal{SIGINT};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "a signal handler may only touch lock-free atomics");
 
-void onSignal(int) { interrupted.store(true, std::memory_order_relaxed); }
+void onSignal(int signal) {
+  interruptingSignal.store(signal, std::memory_order_relaxed);
+  interrupted.store(true, std::memory_order_relaxed);
+}
 
 spdlog::logger& logger() {
   static const std::shared_ptr<spdlog::logger> instance = [] {
@@ -38,6 +43,8 @@ void catchInterrupts() {
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }
+
+int interruptedExitCode() { return 128 + interruptingSignal.load(std::memory_order_relaxed); }
 
 void printError(std::string_view text) { logger().error("{}", text); }
 

@@ -13,8 +13,12 @@ namespace brickfield {
 /// True after SIGINT or SIGTERM; what Progress::cancelled points to.
 const std::atomic<bool>& isInterrupted();
 
-/// The first SIGINT or SIGTERM sets isInterrupted, the second ends the process as usual.
+/// The first SIGINT or SIGTERM sets isInterrupted, the same once more ends the process at once; only then may a
+/// temporary file ".brickfield-*" stay beside an output.
 void catchInterrupts();
+
+/// As shells count: 128 and the signal's number, so 130 after SIGINT and 143 after SIGTERM.
+int interruptedExitCode();
 
 /// One line on stderr: "brickfield: TEXT".
 void printError(std::string_view text);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <set>
 
 #include <fmt/format.h>
@@ -79,6 +80,17 @@ void checkExtensions(GltfDocument& document) {
       document.warnings.push_back(fmt::format("extension {} is not supported and left out", extension));
 }
 
+/// Of used and unused buffers and images; what is no file beneath the folder is left to whoever reads it.
+void noteFiles(GltfDocument& document) {
+  for (const char* array : {"buffers", "images"}) {
+    if (!document.json.contains(array)) continue;
+    for (const json& entry : document.json[array])
+      if (const auto uri = entry.find("uri"); uri != entry.end())
+        if (std::optional<std::filesystem::path> path = fileOfUri(uri->get_ref<const std::string&>(), document.folder))
+          document.files.push_back(std::move(*path));
+  }
+}
+
 void loadBuffers(GltfDocument& document, const GltfContainer& container) {
   if (!document.json.contains("buffers")) return;
   const json buffers = std::move(document.json["buffers"]);
@@ -131,8 +143,10 @@ void parseWithTinygltf(GltfDocument& document) {
                                           static_cast<unsigned int>(text.size()), "");
   } catch (const Error&) {
     throw;
-  } catch (const std::exception& exception) {
-    document.refuse("JSON", exception.what());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) { // its text speaks of the parser's insides
+    document.refuse("JSON", "holds a value of another type than glTF asks for");
   }
   if (!isLoaded) document.refuse("JSON", firstLine(error));
   tinygltf::Model& model = *document.model;
@@ -181,6 +195,7 @@ GltfDocument openGltf(std::vector<std::byte> bytes, const std::string& file, con
   checkGltfSchema(document.json, file);
   checkVersions(document);
   checkExtensions(document);
+  noteFiles(document);
   loadBuffers(document, container);
   parseWithTinygltf(document);
   return document;

@@ -28,10 +28,11 @@ struct GltfDocument {
   ImportLimits limits;
   nlohmann::json json;                    ///< the schema holds; without `buffers`, whose bytes are below
   std::shared_ptr<tinygltf::Model> model; ///< without buffers and images; accessors without a view have -1
-  /// One for each glTF buffer, at least byteLength long; nothing where the file gives no data (a placeholder).
+  /// One for each glTF buffer, at least byteLength long; nothing where the file gives it no data.
   std::vector<std::optional<std::span<const std::byte>>> buffers;
   std::vector<std::uint64_t> bufferBytes; ///< byteLength of each
   std::vector<std::string> warnings;
+  std::vector<std::filesystem::path> files; ///< that buffers and images name, whether they are read or not
 
   std::uint64_t verticesLeft = 0; ///< also spent on morph targets, keys and instances
   std::uint64_t indicesLeft = 0;

@@ -34,6 +34,7 @@ Scene importGltfBytes(std::vector<std::byte> bytes, const std::string& file, con
     importAnimations(document, scene);
     importImages(document, scene); // last: the most costly step
     scene.warnings = std::move(document.warnings);
+    scene.files = std::move(document.files);
     return scene;
   } catch (const std::bad_alloc&) {
     throw BadInput(file, "", "needs more memory than there is");
@@ -44,7 +45,7 @@ Scene importGltfBytes(std::vector<std::byte> bytes, const std::string& file, con
 
 Scene importGltf(const std::filesystem::path& path, const ImportLimits& limits) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  return importGltfBytes(readFile(path, limits.fileBytes), path.filename().string(), folder, limits);
+  return importGltfBytes(readFile(path, limits.fileBytes), path.string(), folder, limits);
 }
 
 } // namespace brickfield

@@ -136,15 +136,21 @@ bool decodeBase64(std::string_view text, std::vector<std::byte>& bytes) {
   return true;
 }
 
+std::optional<fs::path> fileOfUri(std::string_view uri, const fs::path& folder) {
+  if (isDataUri(uri)) return std::nullopt;
+  try {
+    return resolveInFolder(uri, {"", "", folder, 0});
+  } catch (const BadInput&) {
+    return std::nullopt;
+  }
+}
+
 std::vector<std::byte> readUri(std::string_view uri, const UriContext& context,
                                std::initializer_list<std::string_view> mediaTypes) {
   if (isDataUri(uri)) return decodeDataUri(uri, context, mediaTypes);
   const fs::path path = resolveInFolder(uri, context);
-  try {
-    return readFile(path, context.limitBytes);
-  } catch (const BadInput& error) {
-    throw BadInput(context.file, context.element, fmt::format("uri \"{}\": {}", shortened(uri), error.what()));
-  }
+  return readFile(path, context.limitBytes,
+                  fmt::format("{}: {}: uri \"{}\"", context.file, context.element, shortened(uri)));
 }
 
 } // namespace brickfield

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,10 @@ struct UriContext {
 
 /// True for "data:..."; such a uri never touches the disk.
 bool isDataUri(std::string_view uri);
+
+/// The file that a uri names, beneath `folder`; nothing where it holds the bytes itself or leads nowhere that is read.
+/// The file need not exist.
+std::optional<std::filesystem::path> fileOfUri(std::string_view uri, const std::filesystem::path& folder);
 
 /// The bytes that a uri stands for.
 ///

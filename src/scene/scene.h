@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -178,7 +179,8 @@ struct SceneRoots {
 };
 
 struct Scene {
-  std::string name; ///< of the file, for messages
+  std::string name;                         ///< of the file as the caller wrote it, for messages
+  std::vector<std::filesystem::path> files; ///< beside it: of all buffers and images; nobody may write there
   std::vector<Image> images;
   std::vector<SceneTexture> textures;
   std::vector<Material> materials;

@@ -1,11 +1,13 @@
 // Output goes through files in a folder of its own: no pipe can fill up and stall.
 #include "tests/support/program.h"
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
 #include <sstream>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,10 +34,44 @@ std::string textOf(const std::filesystem::path& path) {
   ::_exit(127);
 }
 
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::minutes kLongest{2};
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Waits for the child, sending the interrupt on its way.
+int waitFor(pid_t child, const Interrupt& interrupt, ProgramResult& result) {
+  const Clock::time_point start = Clock::now();
+  Clock::time_point countedFrom = start;
+  bool isPending = interrupt.afterMilliseconds > 0, isKilled = false;
+  bool isAwaited = !interrupt.awaited.empty();
+  int status = 0;
+  struct rusage usage {};
+  while (::wait4(child, &status, WNOHANG, &usage) == 0) {
+    ::usleep(2000);
+    if (isAwaited && std::filesystem::exists(interrupt.awaited)) {
+      isAwaited = false;
+      countedFrom = Clock::now();
+    }
+    if (isPending && !isAwaited && secondsSince(countedFrom) * 1e3 >= interrupt.afterMilliseconds) {
+      isPending = false;
+      countedFrom = Clock::now();
+      ::kill(child, interrupt.signal);
+    }
+    if (isKilled || Clock::now() - start < kLongest) continue;
+    isKilled = true;
+    ADD_FAILURE() << "the program did not end";
+    ::kill(child, SIGKILL);
+  }
+  result.seconds = secondsSince(countedFrom);
+  result.peakBytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  return status;
+}
+
 } // namespace
 
 ProgramResult runBrickfield(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                            int interruptAfterMilliseconds) {
+                            const Interrupt& interrupt) {
   const TemporaryFolder streams;
   const std::filesystem::path output = streams / "output", messages = streams / "messages";
   std::vector<std::string> words{std::string(BRICKFIELD_BINARY_DIR) + "/brickfield"};
@@ -46,13 +82,8 @@ ProgramResult runBrickfield(const std::vector<std::string>& arguments, const std
 
   const pid_t child = ::fork();
   if (child == 0) becomeProgram(pointers, folder, output, messages);
-  if (interruptAfterMilliseconds > 0) {
-    ::usleep(static_cast<useconds_t>(interruptAfterMilliseconds) * 1000);
-    ::kill(child, SIGINT);
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
   ProgramResult result;
+  const int status = waitFor(child, interrupt, result);
   result.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   result.output = textOf(output);
   result.messages = textOf(messages);

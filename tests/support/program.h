@@ -1,6 +1,8 @@
 // Runs the built brickfield program as a user would.
 #pragma once
 
+#include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,12 +13,22 @@ struct ProgramResult {
   int exitCode = -1;    ///< -1: ended by a signal
   std::string output;   ///< stdout
   std::string messages; ///< stderr
+  double seconds = 0;   ///< after an interrupt: from there to the end
+  std::uint64_t peakBytes = 0;
 };
 
+/// A signal that is sent while the program works.
+struct Interrupt {
+  int afterMilliseconds = 0; ///< 0: never
+  int signal = SIGINT;
+  std::filesystem::path awaited; ///< sent only once this file or folder is there, counted from then; empty: at once
+};
+
+/// Runs it to its end; what does not end within two minutes is killed, with a failure of the test.
+///
 /// arguments without the program's name
 /// folder    working folder
-/// interruptAfterMilliseconds SIGINT is sent then; 0: never
 ProgramResult runBrickfield(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                            int interruptAfterMilliseconds = 0);
+                            const Interrupt& interrupt = {});
 
 } // namespace brickfield::test

@@ -1,103 +1,14 @@
 // The program against wrong input of every kind: exit code 2, one line that names what is wrong, nothing written.
-#include <algorithm>
 #include <fstream>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "app/command_line.h"
-#include "core/files.h"
-#include "tests/support/program.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/robustness/app/command_line_fixture.h"
 
-namespace brickfield {
+namespace brickfield::test {
 namespace {
 
-namespace fs = std::filesystem;
-using test::ProgramResult;
 using ::testing::HasSubstr;
-using ::testing::StartsWith;
-
-/// Two boxes of one mesh, "Left" and "Right", and nothing else: no file beside it, no camera.
-void writeScene(const fs::path& path) {
-  static const std::vector<float> corners{-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1,
-                                          -1, -1, 1,  1, -1, 1,  1, 1, 1,  -1, 1, 1};
-  static const std::vector<std::uint16_t> triangles{0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
-                                                    3, 6, 2, 3, 7, 6, 0, 4, 7, 0, 7, 3, 1, 2, 6, 1, 6, 5};
-  nlohmann::json scene = {
-      {"asset", {{"version", "2.0"}}},
-      {"scenes", {{{"nodes", {0, 1}}}}},
-      {"scene", 0},
-      {"nodes", {{{"name", "Left"}, {"mesh", 0}}, {{"name", "Right"}, {"mesh", 0}, {"translation", {3, 0, 0}}}}},
-      {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
-      {"buffers", {{{"byteLength", 168}, {"uri", "scene.bin"}}}},
-      {"bufferViews", {{{"buffer", 0}, {"byteLength", 96}}, {{"buffer", 0}, {"byteOffset", 96}, {"byteLength", 72}}}},
-      {"accessors",
-       {{{"bufferView", 0},
-         {"componentType", 5126},
-         {"count", 8},
-         {"type", "VEC3"},
-         {"min", {-1, -1, -1}},
-         {"max", {1, 1, 1}}},
-        {{"bufferView", 1}, {"componentType", 5123}, {"count", 36}, {"type", "SCALAR"}}}}};
-  writeFile(path, scene.dump());
-  std::string bytes(reinterpret_cast<const char*>(corners.data()), corners.size() * sizeof(float));
-  bytes.append(reinterpret_cast<const char*>(triangles.data()), triangles.size() * sizeof(std::uint16_t));
-  writeFile(path.parent_path() / "scene.bin", bytes);
-}
-
-class CommandLine : public ::testing::Test {
-protected:
-  void SetUp() override {
-    fs::current_path(folder_.path());
-    writeScene(folder_ / "scene.gltf");
-    folder_.write("text.txt", "no scene");
-    folder_.write("text.png", "no picture");
-    folder_.write("text.exr", "no picture");
-    folder_.write("text.hdr", "no picture");
-    folder_.write("text.bricks", "no bricks");
-    folder_.write("text.glb", "no scene");
-    folder_.write("kept.png", "kept");
-    fs::create_directory(folder_ / "folder.png");
-  }
-
-  void TearDown() override { fs::current_path("/"); }
-
-  ProgramResult run(const std::vector<std::string>& arguments) const {
-    return test::runBrickfield(arguments, folder_.path());
-  }
-
-  /// Expects exit code 2 and one line with all `parts`, and a folder as before. In this process: starting the program
-  /// some two hundred times would cost a minute; the tests that do start it prove that the exit code comes through.
-  void expectRefused(const std::vector<std::string>& arguments, const std::vector<std::string>& parts) {
-    std::string line;
-    for (const std::string& argument : arguments) line += argument + " ";
-    SCOPED_TRACE(line);
-    const std::vector<std::string> before = files();
-    ProgramResult result;
-    ::testing::internal::CaptureStderr();
-    result.exitCode = runCommandLine(arguments);
-    result.messages = ::testing::internal::GetCapturedStderr();
-    EXPECT_EQ(result.exitCode, 2);
-    EXPECT_THAT(result.messages, StartsWith("brickfield: "));
-    EXPECT_EQ(std::count(result.messages.begin(), result.messages.end(), '\n'), 1) << result.messages;
-    for (const std::string& part : parts) EXPECT_THAT(result.messages, HasSubstr(part));
-    EXPECT_EQ(files(), before);
-    EXPECT_EQ(readFile(folder_ / "kept.png").size(), 4u);
-  }
-
-  /// Hidden ones too: half-written files would be such.
-  std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_.path())) names.push_back(entry.path().filename());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
-  test::TemporaryFolder folder_;
-};
 
 TEST_F(CommandLine, HelpAndVersionAreDone) {
   for (const std::vector<std::string>& arguments :
@@ -209,6 +120,8 @@ TEST_F(CommandLine, RefusesCamerasThatAreNot) {
     expectRefused({command, "scene.gltf", "-o", "a.png", "--target", "1,2,3"}, {"--target", "--eye"});
     expectRefused({command, "scene.gltf", "-o", "a.png", "--eye", "1,2,3", "--target", "1,2,3"}, {"same point"});
     expectRefused({command, "scene.gltf", "-o", "a.png", "--camera", "seven"}, {"seven"});
+    expectRefused({command, "scene.gltf", "-o", "a.png", "--camera", "auto", "--eye", "1,2,3", "--target", "0,0,0"},
+                  {"--camera: auto", "--eye"});
     expectRefused({command, "scene.gltf", "-o", "a.png", "--animation", "Dance", "--time", "1"}, {"Dance"});
   }
 }
@@ -269,15 +182,36 @@ TEST_F(CommandLine, BakesInspectsTracesAndCompares) {
   expectRefused({"compare", "la.exr", "lb.exr", "--layer", "shadow"}, {"la.exr", "shadow"});
 }
 
-TEST_F(CommandLine, InterruptLeavesNothingBehind) {
-  const std::vector<std::string> before = files();
-  // Far more work than fits into the time before the signal, on any machine.
-  const ProgramResult result = test::runBrickfield(
-      {"reference", "scene.gltf", "-o", "kept.png", "--samples", "65536", "--size", "4096x4096"}, folder_.path(), 1500);
-  EXPECT_EQ(result.exitCode, 130) << result.messages;
-  EXPECT_EQ(result.messages, "brickfield: cancelled\n");
-  EXPECT_EQ(files(), before);
-  EXPECT_EQ(readFile(folder_ / "kept.png").size(), 4u);
+TEST_F(CommandLine, ScenesAreNamedAsTheyWereTyped) {
+  folder_.write("inner/broken.gltf", "{\n  \"asset\" {}}");
+  const std::string broken = "inner/broken.gltf: JSON: line 2, column 11: unexpected '{'; expected ':'\n";
+  folder_.write("inner/bare.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4, "uri": "b.bin"}]})");
+  const std::string bare = "brickfield: ./inner/bare.gltf: buffer 0: uri \"b.bin\": no such file\n";
+  for (const std::vector<std::string>& tail :
+       {std::vector<std::string>{"-o", "a.png"}, {"-o", "a.png", "--sdf", "all"}})
+    for (const char* command : {"render", "reference"}) {
+      std::vector<std::string> arguments{command, "inner/broken.gltf"};
+      arguments.insert(arguments.end(), tail.begin(), tail.end());
+      expectRefused(arguments, {broken});
+      arguments[1] = "./inner/bare.gltf";
+      expectRefused(arguments, {bare});
+    }
+  expectRefused({"bake", "inner/broken.gltf", "-o", "a.bricks"}, {broken});
+  expectRefused({"list", "cameras", "inner/broken.gltf"}, {broken});
+  expectRefused({"render", (folder_ / "scene.gltf").string(), "-o", "a.png", "--camera", "7"},
+                {"brickfield: " + (folder_ / "scene.gltf").string() + ": camera"});
+}
+
+TEST_F(CommandLine, ListOfCamerasSaysNothingOfMeshes) {
+  nlohmann::json scene = nlohmann::json::parse(std::ifstream(folder_ / "scene.gltf"));
+  scene["extensionsUsed"] = {"VENDOR_unknown"};
+  writeFile(folder_ / "scene.gltf", scene.dump());
+  EXPECT_THAT(run({"bake", "scene.gltf", "--node", "Left", "--resolution", "8", "-o", "a.bricks"}).messages,
+              HasSubstr("VENDOR_unknown"));
+  const ProgramResult result = run({"list", "cameras", "scene.gltf"});
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_EQ(result.messages, "");
+  EXPECT_THAT(result.output, HasSubstr("--camera auto"));
 }
 
 TEST_F(CommandLine, FullDeviceIsNoSuccess) {
@@ -291,4 +225,4 @@ TEST_F(CommandLine, FullDeviceIsNoSuccess) {
 }
 
 } // namespace
-} // namespace brickfield
+} // namespace brickfield::test

@@ -144,9 +144,10 @@ TEST(HostileGltf, EveryFileEndsAsExpectedInTimeAndMemory) {
     slowest = std::max(slowest, outcome.seconds);
     loaded += outcome.ending == Ending::Loaded;
     if (outcome.ending != Ending::Refused) continue;
-    EXPECT_THAT(outcome.message, ::testing::StartsWith(path.filename().string() + ": "));
+    EXPECT_THAT(outcome.message, ::testing::StartsWith(path.string() + ": "));
+    EXPECT_THAT(outcome.message, ::testing::Not(::testing::HasSubstr("json.exception")));
     EXPECT_EQ(outcome.message.find('\n'), std::string::npos);
-    EXPECT_GT(outcome.message.size(), path.filename().string().size() + 10) << "the element and the reason are named";
+    EXPECT_GT(outcome.message.size(), path.string().size() + 10) << "the element and the reason are named";
   }
   std::printf("%zu files, %d loaded, slowest %.3f s, largest %.0f MiB\n", files.size(), loaded, slowest,
               static_cast<double>(peakBytes) / (1 << 20));

@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "core/error.h"
 #include "tests/support/temporary_folder.h"
@@ -48,6 +49,22 @@ TEST(ReadFile, RefusesWhatIsNoFileAndNamesIt) {
   const TemporaryFolder folder;
   for (const fs::path& path : {folder / "missing.glb", folder.path(), fs::path("/dev/zero"), fs::path("")})
     EXPECT_THAT(refusalOf([&] { readFile(path); }), AllOf(HasSubstr(path.string() + ":"))) << path;
+}
+
+/// A named pipe, a socket's name and links to them: what a plain open would wait on for ever, or fail at.
+std::vector<fs::path> notFiles(const TemporaryFolder& folder) {
+  EXPECT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(::mknod((folder / "socket").c_str(), S_IFSOCK | 0600, 0), 0);
+  fs::create_symlink("pipe", folder / "link");
+  return {folder / "pipe", folder / "socket", folder / "link"};
+}
+
+TEST(ReadFile, RefusesPipesAndSocketsWithoutWaiting) {
+  const TemporaryFolder folder;
+  for (const fs::path& path : notFiles(folder))
+    EXPECT_THAT(refusalOf([&] { readFile(path); }), AllOf(HasSubstr(path.string() + ":"), HasSubstr("not a regular")));
+  EXPECT_THAT(refusalOf([&] { readFile(folder / "pipe", 9, "scene.gltf: buffer 0"); }),
+              "scene.gltf: buffer 0: is a named pipe, not a regular file");
 }
 
 TEST(ReadFile, RefusesFilesOverTheLimit) {
@@ -112,6 +129,46 @@ TEST(WriteFile, WritesThroughDevicesInsteadOfReplacingThem) {
     EXPECT_THAT(refusalOf([] { writeFile("/dev/full", std::string_view("x")); }), HasSubstr("/dev/full"));
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
   }
+}
+
+TEST(WriteFile, RefusesPipesAndSocketsWithoutWaiting) {
+  const TemporaryFolder folder;
+  for (const fs::path& path : notFiles(folder)) {
+    EXPECT_THAT(refusalOf([&] { writeFile(path, std::string_view("x")); }),
+                AllOf(HasSubstr(path.string() + ":"), HasSubstr("not written to")));
+    EXPECT_THAT(obstacleToWriting(path), HasSubstr("not written to"));
+  }
+  EXPECT_EQ(entriesOf(folder.path()), 3);
+}
+
+TEST(WriteFile, KeepsSymbolicLinksAndReplacesWhatTheyLeadTo) {
+  const TemporaryFolder folder;
+  folder.write("inner/file", "old");
+  fs::create_symlink("inner/file", folder / "link");
+  writeFile(folder / "link", std::string_view("new"));
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_EQ(textOf(folder / "inner/file"), "new");
+}
+
+TEST(ObstacleToWriting, IsFoundBeforeAnythingIsWritten) {
+  const TemporaryFolder folder;
+  folder.write("file", "old");
+  EXPECT_EQ(obstacleToWriting(folder / "file"), "");
+  EXPECT_EQ(obstacleToWriting(folder / "new"), "");
+  EXPECT_EQ(obstacleToWriting("/dev/null"), "");
+  EXPECT_THAT(obstacleToWriting(folder.path()), HasSubstr("folder"));
+  EXPECT_THAT(obstacleToWriting(folder / "no/file"), HasSubstr("folder does not exist"));
+  EXPECT_THAT(obstacleToWriting(folder / std::string(300, 'n')), HasSubstr("too long"));
+  EXPECT_THAT(obstacleToWriting("/proc/file"), HasSubstr("cannot be written")) << "where root may, but nobody can";
+  EXPECT_EQ(entriesOf(folder.path()), 1);
+  EXPECT_EQ(textOf(folder / "file"), "old");
+}
+
+TEST(WriteFile, LongNamesThatTheFolderTakesAreWritten) {
+  const TemporaryFolder folder;
+  const std::string name = std::string(250, 'n') + ".png";
+  writeFile(folder / name, std::string_view("x"));
+  EXPECT_EQ(textOf(folder / name), "x");
 }
 
 TEST(ExecutableFolder, HoldsThisTest) {

@@ -59,7 +59,7 @@ TEST(GltfImport, EveryValidFileLoadsWhole) {
     ++files;
     Scene scene;
     ASSERT_NO_THROW(scene = importGltf(entry.path()));
-    EXPECT_EQ(scene.name, entry.path().filename().string());
+    EXPECT_EQ(scene.name, entry.path().string());
     EXPECT_GE(scene.defaultScene, 0);
     EXPECT_GT(triangleCount(scene), 0u);
     for (const Mesh& mesh : scene.meshes)

@@ -74,7 +74,7 @@ TEST_F(GltfUri, SchemesAreRefused) {
 TEST_F(GltfUri, FoldersMissingFilesAndLargeOnesAreErrors) {
   EXPECT_THAT(error("inner"), HasSubstr("not a regular file"));
   EXPECT_THAT(error("."), HasSubstr("leads out"));
-  EXPECT_THAT(error("missing.bin"), HasSubstr("no such file"));
+  EXPECT_THAT(error("missing.bin"), HasSubstr("uri \"missing.bin\": no such file"));
   EXPECT_THAT(error("inner/a%20b.bin", 5), HasSubstr("at most 5"));
   EXPECT_THAT(error(""), HasSubstr("is empty"));
   EXPECT_THAT(error("a%0"), HasSubstr("broken percent escape"));

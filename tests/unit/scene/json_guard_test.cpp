@@ -11,6 +11,7 @@ namespace brickfield {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string errorOf(std::string_view text, int depthLimit = 200) {
   try {
@@ -65,6 +66,20 @@ TEST(JsonGuard, ErrorsNameTheFile) {
   EXPECT_THAT(errorOf("{\"a\":\"\xFF\"}"), HasSubstr("JSON")) << "broken UTF-8";
   EXPECT_THAT(errorOf("{\"a\":1e999}"), HasSubstr("JSON")) << "a number that no double holds";
   EXPECT_EQ(errorOf("{\"a\": 1}"), "");
+}
+
+TEST(JsonGuard, ErrorsNameThePlaceAndWhatIsMissingAndNoLibrary) {
+  EXPECT_EQ(errorOf("{\n  \"a\": 1,\n  \"b\" 2\n}"),
+            "file.gltf: JSON: line 3, column 7: unexpected number literal; expected ':'");
+  EXPECT_EQ(errorOf("{]"), "file.gltf: JSON: line 1, column 2: unexpected ']'; expected string literal");
+  EXPECT_THAT(errorOf(""), HasSubstr("line 1, column 1: unexpected end of input"));
+  EXPECT_THAT(errorOf("{\"1e999\":\n [1,1e999]}"), HasSubstr("line 2, column "));
+  for (const char* text :
+       {"", "{", "{a", "{\"a\":nul}", "{\"a\":1e999}", "{\"a\":\"\xFF\"}", "{\"a\":\"\\u12\"}", "{} x"}) {
+    EXPECT_THAT(errorOf(text), HasSubstr("JSON: line 1, column ")) << text;
+    EXPECT_THAT(errorOf(text), Not(HasSubstr("json.exception"))) << text;
+    EXPECT_THAT(errorOf(text), Not(HasSubstr("while parsing"))) << text;
+  }
 }
 
 } // namespace
