@@ -1,0 +1,51 @@
+// The world field on the GPU. Spaces: anchored = metres of world from an anchor near the camera, so that 10 km from the
+// origin floats still tell millimetres apart; lattice = texels of a cascade counted from the anchor, a texel's centre at
+// half numbers; slot = lattice modulo the cascade's size, which is where a texel lies in memory whatever the window.
+#ifndef BRICKFIELD_WORLD_FIELD_PARAMS_H
+#define BRICKFIELD_WORLD_FIELD_PARAMS_H
+#include "shared/bridge.h"
+
+SHARED_BEGIN
+
+// A triangle of a drawn instance where it stands this frame. Pseudonormals (Baerentzen and Aanaes 2005) are octahedral,
+// SNORM 2x16: angle weighted at the corners, sums of both faces at the edges; they tell inside from outside on closed
+// surfaces whatever feature is closest.
+struct WorldTriangle {
+  vec4 a; // anchored; w: bits of the corner's pseudonormal
+  vec4 b;
+  vec4 c;
+  uvec4 codes; // x, y, z: pseudonormals of the edges ab, bc, ca; w: node << 2 | WORLD_TRIANGLE_*
+};
+SHARED_ASSERT_SIZE(WorldTriangle, 64)
+
+SHARED_CONST uint WORLD_TRIANGLE_CLOSED = 1; // of a closed surface: its distance is signed; else it is a sheet
+SHARED_CONST uint WORLD_TRIANGLE_EMPTY = 2;  // not finite, or of an instance that is not drawn: no triangle at all
+SHARED_CONST uint WORLD_TRIANGLE_NODE_SHIFT = 2;
+
+// Each group of GATHER_TRIANGLES threads makes as many triangles, or pseudonormals, of one instance.
+SHARED_CONST uint GATHER_TRIANGLES = 64;
+
+// An instance of a mesh as the gathering passes see it.
+struct WorldInstance {
+  mat4 anchoredFromObject;
+  uvec4 triangles; // x: first world triangle; y: count; z: first row of the mesh's corner table; w: node << 2 | flags
+  uvec4 vertices;  // x: first welded vertex of the instance; y: count; z: first row of the mesh's fan table; w: unused
+};
+SHARED_ASSERT_SIZE(WorldInstance, 96)
+
+SHARED_CONST uint FIELD_TILE = 8;          // texels along a tile's side
+SHARED_CONST uint FIELD_TILE_TEXELS = 512; // the smallest part that is made anew
+SHARED_CONST uint MOST_CASCADES = 8;
+
+struct FieldCascade {
+  ivec4 window;  // xyz: lattice of the window's first texel; w: texels along a side, a power of two
+  vec4 texel;    // x: metres; y: texels a metre; z: largest magnitude stored, texels; w: half a sheet's thickness, texels
+  uvec4 buffers; // x: first texel, y: first coarse texel, z: first tile in the buffers of all cascades; w: FIELD_* flags
+};
+SHARED_ASSERT_SIZE(FieldCascade, 48)
+
+SHARED_CONST uint FIELD_WHOLE = 1; // nothing lies outside the window
+
+SHARED_END
+
+#endif

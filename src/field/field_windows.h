@@ -1,0 +1,81 @@
+// Where the world field is kept and which parts of it a frame must make anew: cascades of cubic windows on lattices
+// through an anchor, cut in tiles of 8^3 texels. No GL; the passes under passes/world_field do what is planned here.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/math.h"
+
+namespace brickfield {
+
+inline constexpr int kFieldTileTexels = 8; ///< along a side
+
+/// One cascade's part of the world. A texel's centre lies at (lattice + 0.5) * texelSize from the anchor.
+struct FieldWindow {
+  glm::ivec3 firstTexel{0}; ///< lattice; a multiple of kFieldTileTexels
+  int texels = 128;         ///< along a side, a power of two from 16 to 512
+  double texelSize = 1;     ///< metres
+  bool isWhole = false;     ///< nothing that counts lies outside
+
+  int tiles() const { return texels / kFieldTileTexels; }
+  /// Largest magnitude that the field holds; beyond it only the sign is kept.
+  int rangeTexels() const { return texels / 8; }
+  Box boundsAnchored() const;
+  bool operator==(const FieldWindow&) const = default;
+};
+
+/// What the user asks for.
+struct FieldShape {
+  int cascades = 4;     ///< 1 to 8
+  int texels = 128;     ///< along a cascade's side
+  double texelSize = 0; ///< metres, of the finest cascade; 0: so that the coarsest covers the scene
+  bool isWhole = false; ///< one window around the whole scene instead of cascades around the eye
+};
+
+/// The windows for an eye: each cascade's texels are twice as large as the one's before, its window centred on the tile
+/// that holds the eye; or the one window around `boundsAnchored` with a margin of two texels. A function of its
+/// arguments alone.
+///
+/// boundsAnchored  of the scene, metres from the anchor; empty counts as one metre
+/// proved by tests/unit/field/field_windows_test.cpp
+std::vector<FieldWindow> fieldWindows(const FieldShape& shape, const Box& boundsAnchored, glm::dvec3 eyeAnchored);
+
+/// Tiles to work on, as words of fieldTileWord, ascending. Each list is what one stage must write so that the next
+/// finds what it reads.
+struct FieldUpdate {
+  std::vector<std::uint32_t> keys; ///< surface keys: what moved, what it left, what scrolled in
+  std::vector<std::uint32_t> rows; ///< sweeps of the coarse seeds along x, then y, then z
+  std::vector<std::uint32_t> columns;
+  std::vector<std::uint32_t> depths;
+  std::vector<std::uint32_t> candidates; ///< nearest triangles: all that the changed keys can reach
+  std::vector<std::uint32_t> values;     ///< distances: candidates, and what moving SDF objects reach
+
+  bool isEmpty() const { return values.empty(); }
+};
+
+/// cascade << 24 | slot of the tile: where it lies in memory, x fastest.
+std::uint32_t fieldTileWord(std::size_t cascade, const FieldWindow& window, glm::ivec3 tileLattice);
+
+/// Plans updates from frame to frame.
+class FieldUpdatePlanner {
+public:
+  /// Everything is new at the next plan.
+  void reset() { windows_.clear(); }
+
+  /// windows  of this frame
+  /// meshes   boxes, metres from the anchor, of every mesh instance that changed: where it was and where it is
+  /// objects  the same of SDF objects
+  FieldUpdate plan(const std::vector<FieldWindow>& windows, std::span<const Box> meshes, std::span<const Box> objects);
+
+private:
+  std::vector<FieldWindow> windows_; ///< of the frame before
+};
+
+/// Distance, in texels, up to which a triangle leaves its key in the texels around it.
+inline constexpr float kFieldSplatTexels = 1.75f;
+/// How far the sweeps over coarse seeds look, in coarse texels of two.
+inline int fieldSweepReach(int rangeTexels) { return rangeTexels / 2 + 2; }
+
+} // namespace brickfield
