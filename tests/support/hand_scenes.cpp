@@ -126,6 +126,64 @@ Scene makeCrowd() {
   return scene;
 }
 
+namespace {
+
+// One metre, facing +Z or -Z.
+Mesh sheetMesh(float side, int material) {
+  Primitive primitive;
+  for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+    primitive.positions.emplace_back(corner.x * side * 0.5f, corner.y * 0.5f, 0);
+    primitive.normals.emplace_back(0, 0, side);
+    primitive.uvs[0].push_back(corner * glm::vec2(0.5f, -0.5f) + 0.5f);
+  }
+  primitive.indices = {0, 1, 2, 0, 2, 3};
+  primitive.material = material;
+  Mesh mesh;
+  mesh.name = "Sheet";
+  mesh.primitives.push_back(std::move(primitive));
+  return mesh;
+}
+
+// White; alpha 0 in a disk around the middle and in the upper right corner.
+Image holeImage() {
+  constexpr int kSide = 128;
+  Image image;
+  image.size = {kSide, kSide};
+  for (int row = 0; row < kSide; ++row)
+    for (int column = 0; column < kSide; ++column) {
+      const glm::vec2 uv((static_cast<float>(column) + 0.5f) / kSide, (static_cast<float>(row) + 0.5f) / kSide);
+      const bool isHole = glm::distance(uv, glm::vec2(0.5f)) < 0.3f || (uv.x > 0.8f && uv.y < 0.2f);
+      image.rgba.insert(image.rgba.end(), {255, 255, 255, isHole ? std::uint8_t{0} : std::uint8_t{255}});
+    }
+  return image;
+}
+
+} // namespace
+
+Scene makeSheets() {
+  Scene scene = emptyScene();
+  scene.images.push_back(holeImage());
+  scene.textures.emplace_back();
+  scene.textures[0].image = 0;
+  scene.materials.resize(3);
+  for (const std::size_t masked : {std::size_t{1}, std::size_t{2}}) {
+    scene.materials[masked].alphaMode = AlphaMode::Mask;
+    scene.materials[masked].baseColorTexture.texture = 0;
+  }
+  scene.materials[1].doubleSided = true;
+  scene.meshes = {sheetMesh(1, 0), sheetMesh(-1, 0), sheetMesh(1, 1), sheetMesh(1, 2)};
+  const auto add = [&](const char* name, int mesh, glm::vec3 place, glm::vec3 scale) {
+    addNode(scene, name, mesh, glm::scale(glm::translate(glm::mat4(1), place), scale));
+  };
+  add("Front", 0, {-1.2f, 0.6f, 0}, glm::vec3(1));
+  add("Back", 1, {0, 0.6f, 0}, glm::vec3(1));
+  add("Mirrored", 0, {1.2f, 0.6f, 0}, {-1, 1, 1});
+  add("TurnedOver", 0, {-1.2f, -0.6f, 0}, {1, 1, -1});
+  add("Masked", 2, {0, -0.6f, 0}, glm::vec3(1));
+  add("MaskedFront", 3, {1.2f, -0.6f, 0}, glm::vec3(1));
+  return scene;
+}
+
 std::vector<AffineCase> affineCases() {
   glm::mat4 shear(1);
   shear[1][0] = 0.8f;

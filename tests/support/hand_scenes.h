@@ -21,6 +21,12 @@ Scene makeInterpenetration();
 /// Forty spheres, boxes and tori that overlap in all ways; every second one is named "Sdf...".
 Scene makeCrowd();
 
+/// Six square sheets of one metre in two rows of three at z = 0, to be looked at from +Z, centred on the origin and 1.2
+/// m apart. Upper row: "Front" faces +Z, "Back" faces -Z, "Mirrored" is Front in a node of scale (-1, 1, 1). Lower row:
+/// "TurnedOver" is Front in a node of scale (1, 1, -1), "Masked" is double-sided and "MaskedFront" single-sided, both
+/// cut by a mask: a round hole of 0.6 m, and a corner at (+x, +y) where there is nothing.
+Scene makeSheets();
+
 struct AffineCase {
   std::string name;
   glm::mat4 worldFromObject;
