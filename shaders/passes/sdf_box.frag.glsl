@@ -14,9 +14,9 @@ layout(std430, binding = kPassBufferABinding) buffer CounterBlock { uint counter
 
 layout(location = 0) flat in uint entry;
 
-layout(location = 0) out vec4 normal_world_oct;
+layout(location = 0) out vec4 normal_world_oct; // xy: shading normal; zw: surface normal, the same here
 layout(location = 1) out vec4 albedo;
-layout(location = 2) out vec4 material;
+layout(location = 2) out vec4 material;         // metallic, roughness, occlusion, unlit
 layout(location = 3) out vec3 emission;
 layout(location = 4) out uint id;
 layout(location = 5) out uvec2 trace;
@@ -39,22 +39,26 @@ vec2 boxRange(SdfInstance instance, vec3 originGrid, vec3 directionGrid, float t
   return vec2(max(max(lower.x, lower.y), max(lower.z, tNear)), min(upper.x, min(upper.y, upper.z)));
 }
 
-// Attributes of the surface at a point, from the level's attribute bricks; without them a white, rough dielectric.
-// Coverage comes back in albedo.a.
-void surfaceAttributes(SdfLevel level, vec3 pointLevel) {
+const vec4 kRoughDielectric = vec4(0.0, 1.0, 1.0, 0.0); // as material
+
+// Writes the attributes of the surface at a point, from the level's attribute bricks; without them white and rough.
+// Returns its coverage: below a half the surface is cut away there.
+float writeSurface(SdfLevel level, vec3 pointLevel) {
   albedo = vec4(1.0);
-  material = vec4(0.0, 1.0, 1.0, 0.0);
+  material = kRoughDielectric;
   emission = vec3(0.0);
-  if (level.attributes.x == SDF_NO_ATTRIBUTES) return;
+  if (level.attributes.x == SDF_NO_ATTRIBUTES) return 1.0;
   vec3 p = clamp(pointLevel, vec3(0.0), vec3(level.cells.yzw * BRICK_CELLS));
   ivec3 brick = brickOfPoint(level, p);
   uint slot = cellOfBrick(level.attributes.x, level, brick);
-  if ((slot & CELL_EMPTY) != 0u) return;
+  if ((slot & CELL_EMPTY) != 0u) return 1.0;
   ivec3 size = textureSize(brick_base_color, 0);
   vec3 uvw = (vec3(texelOfSlot(slot, size)) + (p - vec3(brick) * float(BRICK_CELLS)) + 0.5) / vec3(size);
-  albedo = textureLod(brick_base_color, uvw, 0.0);
+  vec4 colorAndCoverage = textureLod(brick_base_color, uvw, 0.0);
+  albedo = vec4(colorAndCoverage.rgb, 1.0);
   material = textureLod(brick_material, uvw, 0.0);
   emission = textureLod(brick_emission, uvw, 0.0).rgb;
+  return colorAndCoverage.a;
 }
 
 void main() {
@@ -83,8 +87,7 @@ void main() {
       hit = TraceHit(next.hit, next.backFace, next.t, hit.steps + next.steps, hit.brickReads + next.brickReads);
       if (!hit.hit) break;
       pointLevel = (entryGrid + hit.t * directionGrid) * level.scale.x;
-      surfaceAttributes(level, pointLevel);
-      if (albedo.a >= 0.5) break;
+      if (writeSurface(level, pointLevel) >= 0.5) break;
       hit.hit = false;
       remaining.x = hit.t + kPastCutVoxels / (length(directionGrid) * level.scale.x);
     }
@@ -115,7 +118,6 @@ void main() {
   vec2 normalOct = octahedralFromDirection(normalWorld);
   normal_world_oct = vec4(normalOct, normalOct);
 
-  albedo.a = 1.0;
   id = packId(uint(instance.ids.x), KIND_SDF);
   ivec3 brick = brickOfPoint(level, pointLevel);
   uint brickNumber = (uint(brick.z) * level.cells.z + uint(brick.y)) * level.cells.y + uint(brick.x);
