@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/image_io.h"
 #include "app/mesh_choice.h"
 #include "app/options.h"
 #include "app/parse.h"
@@ -64,6 +65,7 @@ nlohmann::json statsJson(const BakeRequest& request, const BakeSettings& setting
 int bake(const BakeRequest& request) {
   const std::vector<OutputPath> outputs{{"-o", request.output, {".bricks"}}, {"--stats", request.stats, {".json"}}};
   checkOutputs(outputs, {request.meshPath});
+  checkInputPath(request.meshPath, {".gltf", ".glb"});
   const Scene scene = importGltf(request.meshPath);
   checkSceneFiles(scene, outputs);
   const Pose pose = poseScene(scene, {});
@@ -93,8 +95,7 @@ int bake(const BakeRequest& request) {
 void addOptions(CLI::App& command, BakeRequest& request) {
   addPath(command, "MESH", "glTF 2.0 file (.gltf or .glb)", request.meshPath)->required();
   addPath(command, "-o,--output", "The .bricks file to write", request.output)->required();
-  command.add_option("--node", request.node, "Which node's mesh, by name or number; absent: the only one")
-      ->type_name("NAME");
+  addName(command, "--node", "Which node's mesh, by name or number; absent: the only one", request.node);
   addValue(command, "--resolution", "Voxels along the longest side, 8 to 1024; 128 by default",
            [&](auto& flag, auto& text) { request.sdf.resolution = static_cast<int>(parseWhole(flag, text, 8, 1024)); })
       ->type_name("N");

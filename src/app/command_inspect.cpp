@@ -99,6 +99,7 @@ int inspect(const InspectOptions& options) {
     throw BadInput(options.output.empty() ? "--slice" : "-o", "",
                    options.output.empty() ? "needs -o" : "needs --slice");
   if (!options.node.empty() && options.against.empty()) throw BadInput("--node", "", "needs --against");
+  if (!options.against.empty()) checkInputPath(options.against, {".gltf", ".glb"});
   const BrickField field = readBricksFile(options.bricks);
   std::optional<RgbImage> slice;
   if (options.slice) slice = sliceField(field, *options.slice);
@@ -122,7 +123,7 @@ void addOptions(CLI::App& command, InspectOptions& options) {
   addPath(command, "--json", "The figures as .json", options.json);
 #ifdef BRICKFIELD_BAKERS
   addPath(command, "--against", "Error against the mesh in this glTF file", options.against);
-  command.add_option("--node", options.node, "Which node's mesh of it, by name or number")->type_name("NAME");
+  addName(command, "--node", "Which node's mesh of it, by name or number", options.node);
 #endif
 }
 

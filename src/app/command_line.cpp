@@ -39,7 +39,7 @@ void addCommands(CLI::App& program, CommandAction& chosen) {
 void checkCommand(CLI::App& program, const std::vector<std::string>& arguments) {
   if (arguments.empty()) throw BadInput("no command is given; \"brickfield --help\" lists them");
   const std::string& first = arguments.front();
-  if (first.empty() || first[0] == '-') return;
+  if (!first.empty() && first[0] == '-') return;
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands([](CLI::App*) { return true; }))
     names.push_back(command->get_name());
@@ -48,13 +48,31 @@ void checkCommand(CLI::App& program, const std::vector<std::string>& arguments) 
   for (const char* absent : {"bake", "reference", "compare"})
     if (first == absent) throw BadInput(first, "", "this build has neither Embree nor OpenImageIO");
 #endif
-  throw BadInput(first, "", fmt::format("is no command; there are {}", fmt::join(names, ", ")));
+  throw BadInput(fmt::format("\"{}\"", first), "", fmt::format("is no command; there are {}", fmt::join(names, ", ")));
 }
 
 /// CLI11 collects what it does not know in an order of its own.
 std::string firstOf(const std::vector<std::string>& unknown, const std::vector<std::string>& arguments) {
   const auto first = std::find_first_of(arguments.begin(), arguments.end(), unknown.begin(), unknown.end());
   return first == arguments.end() ? "an argument" : "\"" + *first + "\"";
+}
+
+/// Where a command or one of its own is meant: "render", "list cameras".
+std::string commandNamed(const CLI::App& program) {
+  std::string name;
+  for (const CLI::App* at = &program; !at->get_subcommands().empty();
+       name += (name.empty() ? "" : " ") + at->get_name())
+    at = at->get_subcommands().front();
+  return name;
+}
+
+/// CLI11 speaks of counts; a reader wants to know what to do. Its text begins with the option's name.
+BadInput refuseCount(const std::string& command, const CLI::ArgumentMismatch& error) {
+  const std::string text = error.what();
+  const std::string option = text.substr(0, text.find(':'));
+  return BadInput(command, option,
+                  text.ends_with("missing") ? "needs a value; see --help"
+                                            : "may be given once and with one value only");
 }
 
 int parseAndRun(std::vector<std::string> arguments) {
@@ -64,16 +82,18 @@ int parseAndRun(std::vector<std::string> arguments) {
   addCommands(program, chosen);
   checkCommand(program, arguments);
   const std::vector<std::string> words = arguments;
-  const std::string command = words.front();
   try {
     std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
     program.parse(std::move(arguments));
   } catch (const CLI::Success& request) { // help, version
     return program.exit(request);
-  } catch (const CLI::ExtrasError&) {
-    throw BadInput(command, firstOf(program.remaining(true), words), "is not expected here; see --help");
+  } catch (const CLI::ArgumentMismatch& error) {
+    throw refuseCount(commandNamed(program), error);
   } catch (const CLI::ParseError& error) {
-    throw BadInput(command, "", error.what());
+    // A flag that is written wrong often is the one that is missed.
+    const std::vector<std::string> unknown = program.remaining(true);
+    if (unknown.empty()) throw BadInput(commandNamed(program), "", error.what());
+    throw BadInput(commandNamed(program), firstOf(unknown, words), "is not expected here; see --help");
   }
   if (!chosen) throw BadInput("no command is given; \"brickfield --help\" lists them");
   return chosen();

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/image_io.h"
 #include "app/options.h"
 #include "app/session.h"
 #include "core/error.h"
@@ -26,6 +27,7 @@ int printPasses() {
 }
 
 int printCameras(const std::filesystem::path& path) {
+  checkInputPath(path, {".gltf", ".glb"});
   const Scene scene = importGltf(path);
   const Pose pose = poseScene(scene, {});
   // No warnings: the importer's are on what is drawn; a wrong camera is an error.

@@ -34,6 +34,7 @@ int reference(const ReferenceOptions& options) {
                                         {"--layers", options.layers, {".exr"}}};
   checkOutputs(outputs, {options.scene.path, options.light.environment});
   checkCamera(options.camera);
+  checkInputPath(options.scene.path, {".gltf", ".glb"});
   const Scene scene = importGltf(options.scene.path);
   checkSceneFiles(scene, outputs);
   const Pose pose = poseScene(scene, options.scene.pose);

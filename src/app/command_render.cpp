@@ -52,8 +52,7 @@ void addOptions(CLI::App& command, RenderRequest& request) {
     request.trace = parseTrace(flag, text);
   })->type_name("PATH");
   addRenderShadows(command, request.shadows);
-  command.add_option("--view", request.view, "A debug view instead of the picture; see \"brickfield list views\"")
-      ->type_name("NAME");
+  addName(command, "--view", "A debug view instead of the picture; see \"brickfield list views\"", request.view);
   addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", request.layers);
   addPath(command, "--stats", "Times, counts and memory as .json", request.stats);
   addValue(command, "--device", "EGL device by number, see \"brickfield list devices\"; absent: the first that works",

@@ -68,10 +68,8 @@ void checkSpec(const fs::path& path, const std::string& element, const OIIO::Ima
 }
 
 std::vector<ImagePart> readParts(const fs::path& path, const char* format, const OIIO::ImageSpec& hints) {
-  std::error_code ec;
-  if (!fs::is_regular_file(path, ec)) {
-    throw BadInput(path.string(), "", fs::exists(path, ec) ? "not a regular file" : "no such file");
-  }
+  if (const std::string obstacle = obstacleToReading(path); !obstacle.empty())
+    throw BadInput(path.string(), "", obstacle);
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input) throw Failure(fmt::format("OpenImageIO has no reader of {}", format));
   OIIO::ImageSpec opened;

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -54,11 +53,8 @@ void checkOutputPath(const fs::path& path, std::string_view flag, const std::vec
 }
 
 void checkInputPath(const fs::path& path, const std::vector<std::string>& extensions) {
-  std::error_code ec;
-  const fs::file_status status = fs::status(path, ec);
-  if (!fs::exists(status)) throw BadInput(path.string(), "", "no such file");
-  if (!fs::is_regular_file(status)) throw BadInput(path.string(), "", "not a regular file");
-  if (::access(path.c_str(), R_OK) != 0) throw BadInput(path.string(), "", "cannot be read");
+  if (const std::string obstacle = obstacleToReading(path); !obstacle.empty())
+    throw BadInput(path.string(), "", obstacle);
   checkExtension(path, "", extensions);
 }
 

@@ -25,9 +25,21 @@ CLI::Option* addPath(CLI::App& command, const std::string& flag, const std::stri
   return addValue(command, flag, help,
                   [&path](const std::string& name, const std::string& text) {
                     if (text.empty()) throw BadInput(name, "", "names no file");
+                    if (text[0] == '=')
+                      throw BadInput(name, text,
+                                     "takes its file after a blank; of one that begins with =, write ./" + text);
                     path = text;
                   })
       ->type_name("FILE");
+}
+
+CLI::Option* addName(CLI::App& command, const std::string& flag, const std::string& help, std::string& name) {
+  return addValue(command, flag, help,
+                  [&name](const std::string& given, const std::string& text) {
+                    if (text.empty()) throw BadInput(given, "", "names nothing");
+                    name = text;
+                  })
+      ->type_name("NAME");
 }
 
 void addSceneOptions(CLI::App& command, SceneRequest& request) {
@@ -35,7 +47,7 @@ void addSceneOptions(CLI::App& command, SceneRequest& request) {
   addValue(command, "--time", "Moment of the animations in seconds; absent: the rest pose",
            [&](auto& flag, auto& text) { request.pose.seconds = parseNumber(flag, text, -1e6, 1e6); })
       ->type_name("S");
-  command.add_option("--animation", request.pose.animation, "Which animations play: NAME, N or all")->type_name("NAME");
+  addName(command, "--animation", "Which animations play: NAME, N or all", request.pose.animation);
   command
       .add_option("--sdf", request.sdf.patterns,
                   "Nodes drawn as SDF objects: glob of node names (repeatable, or comma separated), all, or none; "
@@ -63,8 +75,7 @@ void addCameraOptions(CLI::App& command, CameraRequest& request) {
   addValue(command, "--size", "Image size in pixels, 1280x720 by default", [&](auto& flag, auto& text) {
     request.sizePixels = parseSize(flag, text);
   })->type_name("WxH");
-  command.add_option("--camera", request.camera, "Camera by name or number, or auto, which frames the scene")
-      ->type_name("NAME");
+  addName(command, "--camera", "Camera by name or number, or auto, which frames the scene", request.camera);
   addValue(command, "--eye", "Where the camera stands, metres; with --target; the lens stays that of --camera",
            [&](auto& flag, auto& text) { request.eye = parseVector(flag, text); })
       ->type_name("X,Y,Z");
@@ -128,8 +139,9 @@ std::string someMeshNodes(const Scene& scene) {
     if (node.mesh < 0 || node.name.empty()) continue;
     if (count++ < kNamesShown) names += (names.empty() ? "" : ", ") + node.name;
   }
-  if (count == 0) return "no node with a mesh has a name";
-  return fmt::format("{}{}", names, count > kNamesShown ? fmt::format(" and {} more", count - kNamesShown) : "");
+  if (count == 0) return "none of them has a name";
+  return fmt::format("there are: {}{}", names,
+                     count > kNamesShown ? fmt::format(" and {} more", count - kNamesShown) : "");
 }
 
 std::vector<bool> matchedNodes(const Scene& scene, const std::string& pattern) {
@@ -141,8 +153,7 @@ std::vector<bool> matchedNodes(const Scene& scene, const std::string& pattern) {
     isAny = isAny || isMatched[i];
   }
   if (!isAny && pattern != "all")
-    throw BadInput("--sdf", fmt::format("\"{}\"", pattern),
-                   "matches no node with a mesh; there are: " + someMeshNodes(scene));
+    throw BadInput("--sdf", fmt::format("\"{}\"", pattern), "matches no node with a mesh; " + someMeshNodes(scene));
   return isMatched;
 }
 

@@ -24,8 +24,11 @@ namespace brickfield {
 CLI::Option* addValue(CLI::App& command, const std::string& flag, const std::string& help,
                       std::function<void(const std::string& flag, const std::string& text)> take);
 
-/// A flag whose value is a file or folder; an empty text is refused.
+/// A flag whose value is a file or folder; an empty text is refused, and "-o=FILE", which would write "=FILE".
 CLI::Option* addPath(CLI::App& command, const std::string& flag, const std::string& help, std::filesystem::path& path);
+
+/// A flag whose value is a name; an empty text is refused.
+CLI::Option* addName(CLI::App& command, const std::string& flag, const std::string& help, std::string& name);
 
 /// Which nodes become SDF objects, and how they are baked.
 struct SdfRequest {

@@ -46,7 +46,6 @@ const char* kindOf(mode_t mode) {
   return "something unknown";
 }
 
-/// What keeps a file from being read; empty: nothing.
 std::string obstacleToReading(int statError, const struct stat& status) {
   if (statError == ENOENT || statError == ENOTDIR) return "no such file";
   if (statError != 0) return fmt::format("cannot be opened: {}", std::strerror(statError));
@@ -121,15 +120,23 @@ void copyInPlace(const fs::path& source, const fs::path& target) {
 
 } // namespace
 
+std::string obstacleToReading(const fs::path& path) {
+  struct stat status {};
+  if (std::string obstacle = obstacleToReading(::stat(path.c_str(), &status) == 0 ? 0 : errno, status);
+      !obstacle.empty())
+    return obstacle;
+  return ::access(path.c_str(), R_OK) == 0 ? "" : fmt::format("cannot be opened: {}", std::strerror(errno));
+}
+
 std::vector<std::byte> readFile(const fs::path& path, std::uint64_t limitBytes, std::string_view shownAs) {
   const std::string name = shownAs.empty() ? path.string() : std::string(shownAs);
   const auto refuse = [&](const std::string& reason) {
     if (!reason.empty()) throw BadInput(name, "", reason);
   };
   struct stat status {};
-  // Asked by name first, since opening alone may rewind a tape or wake a reader's peer; then of what was opened, since
-  // the name may lead elsewhere by then.
-  refuse(obstacleToReading(::stat(path.c_str(), &status) == 0 ? 0 : errno, status));
+  // Asked by name first, since opening alone may rewind a tape or wake a pipe's other end; then of what was opened,
+  // since the name may lead elsewhere by then.
+  refuse(obstacleToReading(path));
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   if (!file.isOpen()) refuse(fmt::format("cannot be opened: {}", std::strerror(errno)));
   refuse(obstacleToReading(::fstat(file.number(), &status) == 0 ? 0 : errno, status));

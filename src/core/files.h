@@ -36,6 +36,9 @@ void writeBesideAndRename(const std::filesystem::path& path,
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void writeFile(const std::filesystem::path& path, std::string_view text);
 
+/// What keeps a file from being read, found without opening it. Empty: nothing.
+std::string obstacleToReading(const std::filesystem::path& path);
+
 /// What keeps a file from being written there, found by making and removing a file beside it: worth asking before long
 /// work. Empty: nothing.
 std::string obstacleToWriting(const std::filesystem::path& path);

@@ -53,6 +53,7 @@ TEST(BakeCache, SecondBakeIsReadAndTheSame) {
   EXPECT_TRUE(wasCached);
   EXPECT_TRUE(encodeBricks(first.field) == encodeBricks(second.field));
   EXPECT_EQ(second.stats.bricks, first.stats.bricks);
+  EXPECT_EQ(first.cacheWarning + second.cacheWarning, "");
 }
 
 TEST(BakeCache, DamagedEntryIsBakedAnewAndReplaced) {
@@ -77,6 +78,8 @@ TEST(BakeCache, DamagedEntryIsBakedAnewAndReplaced) {
     bool wasCached = true;
     const BakeResult again = bakeCached(mesh.input(), smallSettings(), folder.path(), {}, &wasCached);
     EXPECT_FALSE(wasCached) << kind;
+    EXPECT_TRUE(again.cacheWarning.starts_with(entry.string() + ": ")) << again.cacheWarning;
+    EXPECT_TRUE(again.cacheWarning.ends_with("; baked anew")) << again.cacheWarning;
     EXPECT_TRUE(encodeBricks(again.field) == expected) << kind;
     bakeCached(mesh.input(), smallSettings(), folder.path(), {}, &wasCached);
     EXPECT_TRUE(wasCached) << kind;
@@ -98,7 +101,9 @@ TEST(BakeCache, FolderThatCannotBeWrittenIsNoHindrance) {
   folder.write("file", "in the way");
   const MeshCase mesh = ball();
   bool wasCached = true;
-  EXPECT_GT(bakeCached(mesh.input(), smallSettings(), folder.path() / "file", {}, &wasCached).stats.bricks, 0u);
+  const BakeResult result = bakeCached(mesh.input(), smallSettings(), folder.path() / "file", {}, &wasCached);
+  EXPECT_GT(result.stats.bricks, 0u);
+  EXPECT_TRUE(result.cacheWarning.starts_with((folder.path() / "file").string() + ": ")) << result.cacheWarning;
   EXPECT_FALSE(wasCached);
 }
 

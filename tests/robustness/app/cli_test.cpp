@@ -1,6 +1,7 @@
 // The program against wrong input of every kind: exit code 2, one line that names what is wrong, nothing written.
 #include <fstream>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/robustness/app/command_line_fixture.h"
@@ -29,8 +30,12 @@ TEST_F(CommandLine, ProgramEndsWithTheExitCodeAndOneLine) {
 
 TEST_F(CommandLine, RefusesUnknownCommandsAndFlags) {
   expectRefused({}, {"no command"});
-  expectRefused({""}, {"brickfield"});
-  expectRefused({"frobnicate"}, {"frobnicate", "render", "bake"});
+  expectRefused({""}, {"brickfield: \"\": is no command; there are render"});
+  expectRefused({" "}, {"brickfield: \" \": is no command"});
+  expectRefused({"frobnicate"}, {"\"frobnicate\": is no command", "render", "bake"});
+  expectRefused({"-x"}, {"\"-x\": is not expected here"});
+  expectRefused({"render", "scene.gltf", "--ou", "a.png"}, {"render: \"--ou\": is not expected here"});
+  expectRefused({"list", "views", "more"}, {"list views: \"more\": is not expected here"});
   expectRefused({"--frob"}, {"--frob"});
   expectRefused({"render", "scene.gltf", "-o", "a.png", "--frob", "3"}, {"render", "--frob"});
   expectRefused({"render", "scene.gltf", "-o", "a.png", "more"}, {"render", "more"});
@@ -45,7 +50,16 @@ TEST_F(CommandLine, RefusesMissingAndRepeatedArguments) {
   expectRefused({"render", "scene.gltf", "-o", "a.png", "-o", "b.png"}, {"render", "output"});
   expectRefused({"bake", "scene.gltf"}, {"bake", "-o"});
   expectRefused({"compare", "text.png"}, {"compare", "B"});
-  expectRefused({"list", "cameras"}, {"SCENE"});
+  expectRefused({"list", "cameras"}, {"list cameras: SCENE is required"});
+  for (const char* flag : {"--size", "--frames", "--eye", "--camera", "--sdf", "--light", "--layers", "--view"})
+    expectRefused({"render", "scene.gltf", "-o", "a.png", flag}, {std::string(flag) + ": needs a value"});
+  for (const char* flag : {"--size", "--camera", "--fov"})
+    expectRefused({"render", "scene.gltf", "-o", "a.png", flag, "1", flag, "2"},
+                  {std::string(flag) + ": may be given once"});
+  for (const char* flag : {"--camera", "--view", "--animation", "--cache", "--layers", "--stats", "--environment"})
+    expectRefused({"render", "scene.gltf", "-o", "a.png", flag, ""}, {flag, "names no"});
+  expectRefused({"bake", "scene.gltf", "-o", "a.bricks", "--node", ""}, {"--node: names nothing"});
+  expectRefused({"render", "scene.gltf", "-o=a.png"}, {"-o", "=a.png", "after a blank"});
 }
 
 TEST_F(CommandLine, RefusesInputsThatAreNoScene) {
@@ -58,6 +72,10 @@ TEST_F(CommandLine, RefusesInputsThatAreNoScene) {
   }
   expectRefused({"bake", "absent.glb", "-o", "a.bricks"}, {"absent.glb", "no such file"});
   expectRefused({"bake", "text.glb", "-o", "a.bricks"}, {"text.glb"});
+  expectRefused({"bake", "text.bricks", "-o", "a.bricks"}, {"text.bricks", "expected .gltf or .glb"});
+  expectRefused({"bake", "folder.png", "-o", "a.bricks"}, {"folder.png: is a folder, not a regular file"});
+  expectRefused({"list", "cameras", "text.txt"}, {"text.txt", "expected .gltf or .glb"});
+  expectRefused({"inspect", "text.bricks", "--against", "text.txt"}, {"text.txt", "expected .gltf or .glb"});
   expectRefused({"list", "cameras", "absent.glb"}, {"absent.glb"});
   expectRefused({"inspect", "absent.bricks"}, {"absent.bricks", "no such file"});
   expectRefused({"inspect", "text.bricks"}, {"text.bricks"});
@@ -200,6 +218,25 @@ TEST_F(CommandLine, ScenesAreNamedAsTheyWereTyped) {
   expectRefused({"list", "cameras", "inner/broken.gltf"}, {broken});
   expectRefused({"render", (folder_ / "scene.gltf").string(), "-o", "a.png", "--camera", "7"},
                 {"brickfield: " + (folder_ / "scene.gltf").string() + ": camera"});
+}
+
+TEST_F(CommandLine, InputsThatWouldBlockAreRefused) {
+  for (const char* end : {".glb", ".gltf", ".bricks", ".png", ".exr", ".hdr"})
+    ASSERT_EQ(::mkfifo((folder_ / (std::string("pipe") + end)).c_str(), 0600), 0);
+  const std::string reason = "is a named pipe, not a regular file";
+  for (const char* scene : {"pipe.glb", "pipe.gltf"}) {
+    for (const char* command : {"render", "reference"}) expectRefused({command, scene, "-o", "a.png"}, {scene, reason});
+    expectRefused({"bake", scene, "-o", "a.bricks"}, {scene, reason});
+    expectRefused({"list", "cameras", scene}, {scene, reason});
+    expectRefused({"inspect", "text.bricks", "--against", scene}, {scene, reason});
+  }
+  for (const char* light : {"pipe.exr", "pipe.hdr"})
+    expectRefused({"render", "scene.gltf", "-o", "a.png", "--environment", light}, {light, reason});
+  for (const char* picture : {"pipe.png", "pipe.exr"}) expectRefused({"compare", picture, picture}, {picture, reason});
+  expectRefused({"inspect", "pipe.bricks"}, {"pipe.bricks", reason});
+  fs::remove(folder_ / "scene.bin");
+  ASSERT_EQ(::mkfifo((folder_ / "scene.bin").c_str(), 0600), 0);
+  expectRefused({"render", "scene.gltf", "-o", "a.png"}, {"scene.gltf: buffer 0: uri \"scene.bin\": " + reason});
 }
 
 TEST_F(CommandLine, ListOfCamerasSaysNothingOfMeshes) {
