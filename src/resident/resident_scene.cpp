@@ -30,6 +30,10 @@ void renew(Buffer& buffer, const char* label, const std::vector<Element>& conten
   buffer.upload(0, content);
 }
 
+/// Whether the SDF object of a mesh shows its surface from behind too. A field has one answer for the whole object, a
+/// mesh one for each primitive: only where every primitive's material is double sided does the object show both sides,
+/// so that no back face of a single-sided material appears that the mesh would cull. A mesh without primitives is single
+/// sided.
 bool isDoubleSidedNode(const Scene& scene, int mesh) {
   const auto& primitives = scene.meshes[static_cast<std::size_t>(mesh)].primitives;
   return !primitives.empty() && std::all_of(primitives.begin(), primitives.end(), [&](const Primitive& primitive) {
