@@ -6,6 +6,7 @@
 #include "passes/frame_targets.h"
 #include "passes/visible_boxes.h"
 #include "resident/resident_scene.h"
+#include "resident/world_triangles.h"
 
 namespace brickfield {
 
@@ -21,6 +22,7 @@ struct FrameContext {
   const Texture& environmentBrdf;
   DrawOrder drawOrder = DrawOrder::MeshesFirst;
   bool countersOn = false;
+  const WorldTriangles* worldTriangles = nullptr; ///< null: nobody asks for a world field
 };
 
 } // namespace brickfield

@@ -31,6 +31,20 @@ const char* resourceName(Resource resource) {
     return "picture";
   case Resource::Counters:
     return "counters";
+  case Resource::WorldTriangles:
+    return "world_triangles";
+  case Resource::TriangleHierarchy:
+    return "triangle_hierarchy";
+  case Resource::FieldKeys:
+    return "field_keys";
+  case Resource::FieldCandidates:
+    return "field_candidates";
+  case Resource::WorldFieldSeeds:
+    return "world_field_seeds";
+  case Resource::WorldFieldCoarse:
+    return "world_field_coarse";
+  case Resource::WorldField:
+    return "world_field";
   }
   return "unknown";
 }

@@ -23,8 +23,15 @@ enum class Resource : std::uint8_t {
   Color,
   Picture,
   Counters,
+  WorldTriangles,    ///< triangles of all drawn instances where they stand
+  TriangleHierarchy, ///< over them, for rays
+  FieldKeys,         ///< of the exact field: surface keys and seeds
+  FieldCandidates,   ///< nearest triangles at half resolution
+  WorldFieldSeeds,   ///< of the flooding; both halves
+  WorldFieldCoarse,  ///< unsigned, less the thickness
+  WorldField,        ///< the volume that other passes read, and what it keeps from frame to frame
 };
-inline constexpr int kResourceCount = 13;
+inline constexpr int kResourceCount = 20;
 const char* resourceName(Resource resource);
 
 /// How the GPU touches it: decides the barrier after incoherent writes.

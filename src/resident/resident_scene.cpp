@@ -32,8 +32,8 @@ void renew(Buffer& buffer, const char* label, const std::vector<Element>& conten
 
 /// Whether the SDF object of a mesh shows its surface from behind too. A field has one answer for the whole object, a
 /// mesh one for each primitive: only where every primitive's material is double sided does the object show both sides,
-/// so that no back face of a single-sided material appears that the mesh would cull. A mesh without primitives is single
-/// sided.
+/// so that no back face of a single-sided material appears that the mesh would cull. A mesh without primitives is
+/// single sided.
 bool isDoubleSidedNode(const Scene& scene, int mesh) {
   const auto& primitives = scene.meshes[static_cast<std::size_t>(mesh)].primitives;
   return !primitives.empty() && std::all_of(primitives.begin(), primitives.end(), [&](const Primitive& primitive) {
@@ -50,8 +50,8 @@ ResidentScene::ResidentScene(const Scene& scene, const SceneFields& fields)
   for (const BrickField& field : fields.fields) fieldIds_.push_back(atlas_.add(field));
 }
 
-std::uint32_t ResidentScene::addDeformJob(const PosedInstance& instance, const PooledPrimitive& primitive) {
-  DeformJob job;
+std::uint32_t ResidentScene::addDeformJob(const PosedInstance& instance, const PooledPrimitive& primitive,
+                                          DeformJob job) {
   const bool skinned = instance.skin >= 0 && primitive.influences > 0;
   job.params.vertices = {primitive.firstVertex, primitive.vertexCount, deformedVertices_,
                          skinned ? primitive.influences : 0u};
@@ -68,15 +68,16 @@ std::uint32_t ResidentScene::addDeformJob(const PosedInstance& instance, const P
   return first;
 }
 
-void ResidentScene::addMeshDraws(const PosedInstance& instance, std::vector<PendingDraw>& pending) {
-  for (std::size_t i = 0; i < meshes_.primitiveCount(instance.mesh); ++i) {
+void ResidentScene::addMeshDraws(const Pose& pose, std::uint32_t number, std::vector<PendingDraw>& pending) {
+  const PosedInstance& instance = pose.instances[number];
+  for (std::uint32_t i = 0; i < meshes_.primitiveCount(instance.mesh); ++i) {
     const PooledPrimitive& primitive = meshes_.primitive(instance.mesh, i);
     PendingDraw draw{primitive, primitive.firstVertex, {}, mirrorSign(instance.worldFromObject) < 0};
     const bool morphed =
         primitive.morphTargets > 0 &&
         std::any_of(instance.morphWeights.begin(), instance.morphWeights.end(), [](float w) { return w != 0; });
     const bool skinned = instance.skin >= 0 && primitive.influences > 0;
-    if (morphed || skinned) draw.baseVertex = addDeformJob(instance, primitive) | kDeformed;
+    if (morphed || skinned) draw.baseVertex = addDeformJob(instance, primitive, {number, i, {}}) | kDeformed;
     draw.row.worldFromObject = instance.worldFromObject;
     draw.row.ids = {instance.node, MaterialTable::rowOf(primitive.material),
                     static_cast<int>((primitive.flatNormals ? shared::DRAW_FLAT_NORMALS : 0u) |
@@ -139,7 +140,8 @@ void ResidentScene::addSdfInstance(const PosedInstance& instance, const Resident
   }
   row.boxMin = glm::vec4((field.boundsObject.min - field.originObject) / field.voxelSizeObject,
                          scaleRange(glm::mat4(worldFromGrid)).y);
-  row.boxMax = glm::vec4((field.boundsObject.max - field.originObject) / field.voxelSizeObject, 0.0f);
+  row.boxMax = glm::vec4((field.boundsObject.max - field.originObject) / field.voxelSizeObject,
+                         scaleRange(glm::mat4(worldFromGrid)).x);
   row.ids = {instance.node, static_cast<int>(field.firstLevel), static_cast<int>(field.levelCount),
              static_cast<int>(doubleSided ? shared::SDF_DOUBLE_SIDED : 0u)};
   sdfRows_.push_back(row);
@@ -152,13 +154,14 @@ void ResidentScene::setPose(const Scene& scene, const Pose& pose) {
   weights_.clear();
   deformedVertices_ = 0;
   std::vector<PendingDraw> pending;
-  for (const PosedInstance& instance : pose.instances) {
+  for (std::uint32_t i = 0; i < pose.instances.size(); ++i) {
+    const PosedInstance& instance = pose.instances[i];
     const int field = fieldOfNode_[static_cast<std::size_t>(instance.node)];
     if (field >= 0)
       addSdfInstance(instance, atlas_.field(fieldIds_[static_cast<std::size_t>(field)]),
                      isDoubleSidedNode(scene, instance.mesh));
     else
-      addMeshDraws(instance, pending);
+      addMeshDraws(pose, i, pending);
   }
   finishDraws(pending);
   renew(sdfInstances_, "sdf_instances", sdfRows_);

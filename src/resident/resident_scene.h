@@ -30,6 +30,8 @@ struct MeshBatch {
 
 /// One run of the deform pass.
 struct DeformJob {
+  std::uint32_t instance = 0;  ///< number in Pose::instances; jobs are in its order, then in that of the primitives
+  std::uint32_t primitive = 0; ///< of its mesh
   shared::DeformParams params;
 };
 
@@ -48,6 +50,7 @@ public:
   const std::vector<MeshBatch>& batches() const { return batches_; }
   const std::vector<DeformJob>& deformJobs() const { return deformJobs_; }
   std::uint32_t sdfInstanceCount() const { return sdfInstanceCount_; }
+  const std::vector<shared::SdfInstance>& sdfInstances() const { return sdfRows_; }
   std::uint32_t meshDrawCount() const { return meshDrawCount_; }
   std::uint32_t lightCount() const { return lightCount_; }
   const Buffer& drawIndices() const { return drawIndices_; }
@@ -61,8 +64,8 @@ public:
 
 private:
   struct PendingDraw;
-  void addMeshDraws(const PosedInstance& instance, std::vector<PendingDraw>& pending);
-  std::uint32_t addDeformJob(const PosedInstance& instance, const PooledPrimitive& primitive);
+  void addMeshDraws(const Pose& pose, std::uint32_t number, std::vector<PendingDraw>& pending);
+  std::uint32_t addDeformJob(const PosedInstance& instance, const PooledPrimitive& primitive, DeformJob job);
   void addSdfInstance(const PosedInstance& instance, const ResidentField& field, bool doubleSided);
   void finishDraws(std::vector<PendingDraw>& pending);
 

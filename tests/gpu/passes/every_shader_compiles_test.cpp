@@ -35,6 +35,8 @@ const std::vector<ProgramSource>& programs() {
       compute("environment_brdf", "passes/environment_brdf.comp.glsl"),
       compute("lighting", "passes/lighting.comp.glsl"),
       compute("tone", "passes/tone.comp.glsl"),
+      compute("world_triangles", "passes/world_triangles.comp.glsl"),
+      compute("world_pseudonormals", "passes/world_pseudonormals.comp.glsl"),
       compute("debug_view", "debug/debug_view.comp.glsl"),
   };
   return table;
