@@ -92,8 +92,10 @@ int parseAndRun(std::vector<std::string> arguments) {
   } catch (const CLI::ParseError& error) {
     // A flag that is written wrong often is the one that is missed.
     const std::vector<std::string> unknown = program.remaining(true);
-    if (unknown.empty()) throw BadInput(commandNamed(program), "", error.what());
-    throw BadInput(commandNamed(program), firstOf(unknown, words), "is not expected here; see --help");
+    const std::string command = commandNamed(program);
+    if (unknown.empty()) throw BadInput(command, "", error.what());
+    if (command.empty()) throw BadInput(firstOf(unknown, words), "", "is not expected before a command; see --help");
+    throw BadInput(command, firstOf(unknown, words), "is not expected here; see --help");
   }
   if (!chosen) throw BadInput("no command is given; \"brickfield --help\" lists them");
   return chosen();

@@ -33,7 +33,7 @@ TEST_F(CommandLine, RefusesUnknownCommandsAndFlags) {
   expectRefused({""}, {"brickfield: \"\": is no command; there are render"});
   expectRefused({" "}, {"brickfield: \" \": is no command"});
   expectRefused({"frobnicate"}, {"\"frobnicate\": is no command", "render", "bake"});
-  expectRefused({"-x"}, {"\"-x\": is not expected here"});
+  expectRefused({"-x"}, {"brickfield: \"-x\": is not expected before a command"});
   expectRefused({"render", "scene.gltf", "--ou", "a.png"}, {"render: \"--ou\": is not expected here"});
   expectRefused({"list", "views", "more"}, {"list views: \"more\": is not expected here"});
   expectRefused({"--frob"}, {"--frob"});
