@@ -27,9 +27,9 @@ void main() {
   if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return;
   uint packedId = texelFetch(id, pixel, 0).r;
   uint kind = kindOfId(packedId);
-  vec3 originWorld, directionWorld;
-  viewRay(ndcFromPixel(vec2(pixel) + 0.5), originWorld, directionWorld);
-  float t = rayParameterOfDepth(originWorld, directionWorld, texelFetch(depth, pixel, 0).r);
+  vec3 originEye, directionWorld;
+  viewRay(ndcFromPixel(vec2(pixel) + 0.5), originEye, directionWorld);
+  float t = rayParameterOfDepth(originEye, directionWorld, texelFetch(depth, pixel, 0).r);
   uvec2 traced = texelFetch(trace, pixel, 0).rg;
 
   vec3 shown = vec3(0.0);

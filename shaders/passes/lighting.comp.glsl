@@ -50,8 +50,8 @@ vec3 environmentLight(Surface surface, vec3 normal, vec3 toViewer, float occlusi
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return;
-  vec3 originWorld, directionWorld;
-  viewRay(ndcFromPixel(vec2(pixel) + 0.5), originWorld, directionWorld);
+  vec3 originEye, directionWorld;
+  viewRay(ndcFromPixel(vec2(pixel) + 0.5), originEye, directionWorld);
   if (kindOfId(texelFetch(id, pixel, 0).r) == KIND_NONE) {
     imageStore(color, pixel, vec4(textureLod(environment_prefiltered, equirectFromDirection(directionWorld), 0.0).rgb, 1.0));
     return;
@@ -62,8 +62,8 @@ void main() {
   if (properties.a > 0.5) {
     radiance = surface.baseColor;
   } else {
-    float t = rayParameterOfDepth(originWorld, directionWorld, texelFetch(depth, pixel, 0).r);
-    vec3 pointWorld = originWorld + t * directionWorld;
+    float t = rayParameterOfDepth(originEye, directionWorld, texelFetch(depth, pixel, 0).r);
+    vec3 pointWorld = frame.eyeWorld.xyz + (originEye + t * directionWorld);
     vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).xy);
     vec3 toViewer = -directionWorld;
     radiance = texelFetch(emission, pixel, 0).rgb + environmentLight(surface, normal, toViewer, properties.b);

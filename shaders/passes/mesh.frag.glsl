@@ -7,7 +7,7 @@
 
 layout(std430, binding = kMeshDrawBinding) readonly buffer MeshDrawBlock { MeshDraw meshDraws[]; };
 
-layout(location = 0) in vec3 pointWorld;
+layout(location = 0) in vec3 pointEye;
 layout(location = 1) in vec3 normalWorld;
 layout(location = 2) in vec4 tangentWorld;
 layout(location = 3) in vec4 uvSets;
@@ -23,8 +23,8 @@ layout(location = 5) out uvec2 trace;
 
 // The triangle's own normal, turned towards the viewer.
 vec3 faceNormal() {
-  vec3 n = cross(dFdx(pointWorld), dFdy(pointWorld));
-  vec3 towardsEye = frame.projection.z > 0.5 ? frame.worldFromView[2].xyz : frame.eyeWorld.xyz - pointWorld;
+  vec3 n = cross(dFdx(pointEye), dFdy(pointEye));
+  vec3 towardsEye = frame.projection.z > 0.5 ? frame.worldFromView[2].xyz : -pointEye;
   return dot(n, towardsEye) < 0.0 ? -n : n;
 }
 

@@ -13,7 +13,7 @@ layout(location = 4) in vec4 color;
 layout(location = 5) in uint bitangentSign;
 layout(location = 6) in uint drawIndex;
 
-layout(location = 0) out vec3 pointWorld;
+layout(location = 0) out vec3 pointEye;
 layout(location = 1) out vec3 normalWorld;
 layout(location = 2) out vec4 tangentWorld; // w: sign of the bitangent, 0 without tangents
 layout(location = 3) out vec4 uvSets;
@@ -26,12 +26,12 @@ void main() {
   bool mirrored = (uint(row.ids.z) & DRAW_MIRRORED) != 0u;
   // The cofactor matrix carries normals under any affine transform; a mirror turns its result around.
   mat3 cofactor = mat3(cross(linear[1], linear[2]), cross(linear[2], linear[0]), cross(linear[0], linear[1]));
-  pointWorld = (row.worldFromObject * vec4(positionObject, 1.0)).xyz;
+  pointEye = linear * positionObject + (row.worldFromObject[3].xyz - frame.eyeWorld.xyz);
   normalWorld = cofactor * directionFromOctahedral(normalOct) * (mirrored ? -1.0 : 1.0);
   float handedness = bitangentSign == 0u ? 0.0 : bitangentSign == 1u ? 1.0 : -1.0;
   tangentWorld = vec4(linear * directionFromOctahedral(tangentOct), mirrored ? -handedness : handedness);
   uvSets = uv;
   vertexColor = color;
   draw = drawIndex;
-  gl_Position = frame.clipFromWorld * vec4(pointWorld, 1.0);
+  gl_Position = frame.clipFromEye * vec4(pointEye, 1.0);
 }

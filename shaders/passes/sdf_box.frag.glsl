@@ -4,6 +4,7 @@
 #include "lib/frame.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/packing.glsl"
+#include "lib/sdf_space.glsl"
 
 layout(depth_less) out float gl_FragDepth;
 
@@ -25,11 +26,6 @@ layout(location = 5) out uvec2 trace;
 const int kMostCuts = 16;
 // Beyond the hit, far enough that its own rounding is not met again.
 const float kPastCutVoxels = 1e-2;
-
-vec3 toGrid(SdfInstance instance, vec4 worldHomogeneous) {
-  return vec3(dot(instance.gridFromWorld[0], worldHomogeneous), dot(instance.gridFromWorld[1], worldHomogeneous),
-              dot(instance.gridFromWorld[2], worldHomogeneous));
-}
 
 // Ray parameters inside the box, from the near plane on.
 vec2 boxRange(SdfInstance instance, vec3 originGrid, vec3 directionGrid, float tNear) {
@@ -65,13 +61,13 @@ void main() {
   SdfInstance instance = sdfInstances[entry & VISIBLE_INDEX_MASK];
   SdfLevel level = sdfLevels[instance.ids.y + int((entry >> VISIBLE_LEVEL_SHIFT) & VISIBLE_LEVEL_MASK)];
 
-  vec3 originWorld, directionWorld;
-  viewRay(ndcFromPixel(gl_FragCoord.xy), originWorld, directionWorld);
-  vec3 originGrid = toGrid(instance, vec4(originWorld, 1.0));
-  vec3 directionGrid = toGrid(instance, vec4(directionWorld, 0.0));
+  vec3 originEye, directionWorld;
+  viewRay(ndcFromPixel(gl_FragCoord.xy), originEye, directionWorld);
+  vec3 originGrid = gridFromEye(instance, originEye);
+  vec3 directionGrid = rowsTimesDirection(instance.gridFromWorld, directionWorld);
   vec2 range = boxRange(instance, originGrid, directionGrid, rayParameterOfNear(directionWorld));
   // A mesh in front ends the ray; the slack leaves near ties to the depth test.
-  float tMesh = rayParameterOfDepth(originWorld, directionWorld, texelFetch(depth_mesh, ivec2(gl_FragCoord.xy), 0).r);
+  float tMesh = rayParameterOfDepth(originEye, directionWorld, texelFetch(depth_mesh, ivec2(gl_FragCoord.xy), 0).r);
   range.y = min(range.y, tMesh * 1.0001);
 
   TraceHit hit = TraceHit(false, false, 0.0, 0u, 0u);
@@ -102,7 +98,7 @@ void main() {
   if (!hit.hit) discard;
 
   float t = range.x + hit.t;
-  float depth = depthOfPoint(originWorld + t * directionWorld);
+  float depth = depthOfPoint(originEye + t * directionWorld);
   gl_FragDepth = min(depth, gl_FragCoord.z);
 #ifdef COUNTERS_ON
   // Rounding of the two ways to the same depth stays within a few units of the last place; more is a broken promise.

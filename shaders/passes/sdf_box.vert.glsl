@@ -1,8 +1,7 @@
 // Boxes of SDF objects without a vertex buffer: six vertices a face, the object from an instance attribute.
 // Facing objects draw the three faces on the eye's side; where eye or near plane are inside, the far faces, pushed to
 // the near plane, so that the fragment's depth bounds every hit behind it.
-#include "lib/frame.glsl"
-#include "shared/sdf_params.h"
+#include "lib/sdf_space.glsl"
 
 layout(std430, binding = kSdfInstanceBinding) readonly buffer SdfInstanceBlock { SdfInstance sdfInstances[]; };
 
@@ -23,13 +22,10 @@ void main() {
   vec3 boxMin = instance.boxMin.xyz, boxMax = instance.boxMax.xyz;
   if (frame.projection.z > 0.5) {
     vec3 towardsEyeWorld = frame.worldFromView[2].xyz;
-    vec3 towardsEyeGrid = vec3(dot(instance.gridFromWorld[0].xyz, towardsEyeWorld),
-                               dot(instance.gridFromWorld[1].xyz, towardsEyeWorld),
-                               dot(instance.gridFromWorld[2].xyz, towardsEyeWorld));
+    vec3 towardsEyeGrid = rowsTimesDirection(instance.gridFromWorld, towardsEyeWorld);
     eyeGrid = 0.5 * (boxMin + boxMax) + sign(towardsEyeGrid) * (boxMax - boxMin);
   } else {
-    vec4 eye = vec4(frame.eyeWorld.xyz, 1.0);
-    eyeGrid = vec3(dot(instance.gridFromWorld[0], eye), dot(instance.gridFromWorld[1], eye), dot(instance.gridFromWorld[2], eye));
+    eyeGrid = gridFromEye(instance, vec3(0.0));
   }
 
   int face = gl_VertexID / 6;
@@ -49,9 +45,7 @@ void main() {
   pick[axis] = upperSide ? 1.0 : 0.0;
   pick[(axis + 1) % 3] = corner.x;
   pick[(axis + 2) % 3] = corner.y;
-  vec4 pointGrid = vec4(mix(boxMin, boxMax, pick), 1.0);
-  vec3 pointWorld = vec3(dot(instance.worldFromGrid[0], pointGrid), dot(instance.worldFromGrid[1], pointGrid),
-                         dot(instance.worldFromGrid[2], pointGrid));
-  gl_Position = visible ? frame.clipFromWorld * vec4(pointWorld, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
+  vec3 pointEye = eyeFromGrid(instance, mix(boxMin, boxMax, pick));
+  gl_Position = visible ? frame.clipFromEye * vec4(pointEye, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
   if (inside && visible) gl_Position.z = gl_Position.w;
 }

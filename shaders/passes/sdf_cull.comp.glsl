@@ -3,8 +3,7 @@
 //
 // Commands: 0 draws the three faces that look at the eye (18 vertices), 1 the far faces of those whose box the near
 // plane or the eye may cut (36 vertices).
-#include "lib/frame.glsl"
-#include "shared/sdf_params.h"
+#include "lib/sdf_space.glsl"
 
 layout(local_size_x = 256) in;
 
@@ -16,18 +15,13 @@ uniform bool reverseOrder; // draws the same objects back to front of the list; 
 
 shared uvec2 scan[256];
 
-vec3 rowsTimesPoint(vec4 rows[3], vec3 p) {
-  vec4 h = vec4(p, 1.0);
-  return vec3(dot(rows[0], h), dot(rows[1], h), dot(rows[2], h));
-}
-
 // Whole box outside of one plane of the frustum (the far plane is left out: boxes beyond it cost nothing).
 bool isOutside(SdfInstance instance) {
   uint outside = 0x1fu;
   for (uint corner = 0u; corner < 8u; ++corner) {
     vec3 pick = vec3(corner & 1u, (corner >> 1) & 1u, corner >> 2);
-    vec3 pointWorld = rowsTimesPoint(instance.worldFromGrid, mix(instance.boxMin.xyz, instance.boxMax.xyz, pick));
-    vec4 clip = frame.clipFromWorld * vec4(pointWorld, 1.0);
+    vec3 pointEye = eyeFromGrid(instance, mix(instance.boxMin.xyz, instance.boxMax.xyz, pick));
+    vec4 clip = frame.clipFromEye * vec4(pointEye, 1.0);
     uint code = uint(clip.x < -clip.w) | uint(clip.x > clip.w) << 1 | uint(clip.y < -clip.w) << 2 |
                 uint(clip.y > clip.w) << 3 | uint(clip.z > clip.w) << 4;
     outside &= code;
@@ -41,10 +35,10 @@ bool isCutByNearPlane(SdfInstance instance) {
   vec3 lower = vec3(3.4e38), upper = vec3(-3.4e38);
   for (int corner = 0; corner < 4; ++corner) {
     vec2 ndc = vec2((corner & 1) * 2 - 1, (corner >> 1) * 2 - 1);
-    vec3 originWorld, directionWorld;
-    viewRay(ndc, originWorld, directionWorld);
-    vec3 nearGrid = rowsTimesPoint(instance.gridFromWorld, originWorld + rayParameterOfNear(directionWorld) * directionWorld);
-    vec3 eyeGrid = rowsTimesPoint(instance.gridFromWorld, originWorld);
+    vec3 originEye, directionWorld;
+    viewRay(ndc, originEye, directionWorld);
+    vec3 nearGrid = gridFromEye(instance, originEye + rayParameterOfNear(directionWorld) * directionWorld);
+    vec3 eyeGrid = gridFromEye(instance, originEye);
     lower = min(lower, min(nearGrid, eyeGrid));
     upper = max(upper, max(nearGrid, eyeGrid));
   }
@@ -57,9 +51,9 @@ uint levelFor(SdfInstance instance) {
   if (frame.counts.y > 0u) return min(frame.counts.y - 1u, uint(instance.ids.z) - 1u);
   float nearest = frame.eyeWorld.w;
   if (frame.projection.z < 0.5) {
-    vec3 eyeGrid = rowsTimesPoint(instance.gridFromWorld, frame.eyeWorld.xyz);
+    vec3 eyeGrid = gridFromEye(instance, vec3(0.0));
     vec3 closestGrid = clamp(eyeGrid, instance.boxMin.xyz, instance.boxMax.xyz);
-    nearest = max(nearest, distance(rowsTimesPoint(instance.worldFromGrid, closestGrid), frame.eyeWorld.xyz));
+    nearest = max(nearest, length(eyeFromGrid(instance, closestGrid)));
   } else {
     nearest = 1.0;
   }

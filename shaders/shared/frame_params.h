@@ -6,7 +6,7 @@
 SHARED_BEGIN
 
 struct FrameParams {
-  mat4 clipFromWorld;
+  mat4 clipFromEye; // eye space: the world's axes around the eye, so that far from the origin no digits are lost
   mat4 worldFromView;
   vec4 eyeWorld;      // w: near distance, metres
   vec4 projection;    // x, y: clipFromView[0][0], [1][1]; z: 1 orthographic; w: exposure factor

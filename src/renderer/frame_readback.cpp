@@ -9,9 +9,10 @@ namespace {
 
 // Ray parameter of a stored depth, as rayParameterOfDepth of shaders/lib/frame.glsl.
 float rayParameterOfDepth(const View& view, const PrimaryRay& ray, float depth) {
-  const glm::dmat4 clipFromWorld(view.clipFromWorld);
-  const glm::dvec4 origin = clipFromWorld * glm::dvec4(glm::dvec3(ray.originWorld), 1.0);
-  const glm::dvec4 direction = clipFromWorld * glm::dvec4(glm::dvec3(ray.directionWorld), 0.0);
+  const glm::dmat4 clipFromEyeSpace = clipFromEye(view);
+  const glm::dvec3 originEye = glm::dvec3(ray.originWorld) - glm::dvec3(view.eyeWorld);
+  const glm::dvec4 origin = clipFromEyeSpace * glm::dvec4(originEye, 1.0);
+  const glm::dvec4 direction = clipFromEyeSpace * glm::dvec4(glm::dvec3(ray.directionWorld), 0.0);
   const double slope = direction.z - double{depth} * direction.w;
   return static_cast<float>((double{depth} * origin.w - origin.z) / slope);
 }

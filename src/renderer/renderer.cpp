@@ -121,7 +121,7 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
 
 shared::FrameParams Renderer::Parts::fillParams() const {
   shared::FrameParams params{};
-  params.clipFromWorld = view.clipFromWorld;
+  params.clipFromEye = glm::mat4(clipFromEye(view));
   params.worldFromView = view.worldFromView;
   params.eyeWorld = glm::vec4(view.eyeWorld, view.nearDistance);
   params.projection = {view.clipFromView[0][0], view.clipFromView[1][1], view.orthographic ? 1.0f : 0.0f,

@@ -233,6 +233,11 @@ View makePerspectiveView(glm::vec3 eyeWorld, glm::vec3 targetWorld, float vertic
                     sizePixels);
 }
 
+glm::dmat4 clipFromEye(const View& view) {
+  const glm::dmat3 axes(view.worldFromView);
+  return glm::dmat4(view.clipFromView) * glm::dmat4(glm::transpose(axes));
+}
+
 PrimaryRay primaryRay(const View& view, glm::vec2 pixel) {
   const glm::dvec2 ndc(2.0 * pixel.x / view.sizePixels.x - 1.0, 1.0 - 2.0 * pixel.y / view.sizePixels.y);
   const glm::dvec2 onPlane(ndc.x / view.clipFromView[0][0], ndc.y / view.clipFromView[1][1]);

@@ -40,6 +40,10 @@ View makeView(const Scene& scene, const Pose& pose, const CameraRequest& request
 View makePerspectiveView(glm::vec3 eyeWorld, glm::vec3 targetWorld, float verticalFovRadians, float nearDistance,
                          glm::uvec2 sizePixels);
 
+/// Clip space from eye space: the world's axes with the eye as origin. For points near the eye it keeps the digits that
+/// clipFromWorld loses far from the origin.
+glm::dmat4 clipFromEye(const View& view);
+
 /// Ray of a pixel: from the eye (orthographic: from the eye's plane), unit direction; pixel centres lie at +0.5,
 /// y counts downwards from the top row. tNear is where the ray crosses the near plane.
 struct PrimaryRay {
