@@ -78,19 +78,20 @@ Box InstanceBounds::anchored(const PosedInstance& instance, glm::dvec3 anchorWor
   // larger than the magnitude.
   const double rounding = std::ldexp(static_cast<double>(24 + 2 * targets_.size()), -24);
   glm::dvec3 min(std::numeric_limits<double>::infinity()), max = -min, magnitude(0);
-  const auto add = [&](const glm::mat4& worldFromRest, const Range& rest) {
+  const glm::dmat4 worldFromObject(instance.worldFromObject); // identity for skinned ones, whose draws apply it too
+  const auto add = [&](const glm::dmat4& worldFromRest, const Range& rest) {
     if (!(rest.min.x <= rest.max.x)) return;
     const Range range = morphed(rest, instance);
-    const Placed placed = place(glm::dmat4(worldFromRest), range.min, range.max);
+    const Placed placed = place(worldFromRest, range.min, range.max);
     if (!isFinite(placed)) return;
     min = glm::min(min, placed.center - placed.half), max = glm::max(max, placed.center + placed.half);
     magnitude = glm::max(magnitude, placed.magnitude);
   };
   if (isSkinned)
     for (std::size_t j = 0; j < std::min(joints_.size(), instance.worldFromBind.size()); ++j)
-      add(instance.worldFromBind[j], joints_[j]);
+      add(worldFromObject * glm::dmat4(instance.worldFromBind[j]), joints_[j]);
   else
-    add(instance.worldFromObject, rest_);
+    add(worldFromObject, rest_);
   Box box;
   if (!(min.x <= max.x)) return box;
   // Rigid instances never pass through floats of the world; the anchor's own magnitude covers both kinds.
