@@ -37,7 +37,8 @@ vec2 footWeights(vec3 ab, vec3 ac, vec3 ap) {
   vec3 n = cross(ab, ac);
   float n2 = dot(n, n);
   vec2 weights = vec2(dot(cross(ap, ac), n), dot(cross(ab, ap), n));
-  bool inside = min(weights.x, weights.y) > 0.0 && weights.x + weights.y < n2;
+  // Of a plane that rounding tilts by a tenth of a radian or more nobody knows the sides.
+  bool inside = min(weights.x, weights.y) > 0.0 && weights.x + weights.y < n2 && n2 > 1e-12 * dot(ab, ab) * dot(ac, ac);
   return inside ? weights / n2 : vec2(-1.0);
 }
 

@@ -1,6 +1,7 @@
 // Pseudonormals after Baerentzen and Aanaes, Signed Distance Computation Using the Angle Weighted Pseudonormal, 2005. Of
 // an edge: the sum of both faces' unit normals; of a vertex: the sum over its fan, weighted by the angle there. A group
-// has triangles, whose edges it codes, or welded vertices, whose fans' corners it codes.
+// has triangles, whose edges it codes, or welded vertices, whose fans' corners it codes. Slivers, which have no normal,
+// pass on those of their neighbours: with a corner in the middle of a neighbour's edge they stand for that neighbour.
 #include "lib/octahedral.glsl"
 #include "lib/triangle_distance.glsl"
 #include "shared/world_field_params.h"
@@ -24,9 +25,12 @@ vec3 cornerOf(uint row, uint corner) {
                         : worldTriangles[row].c.xyz;
 }
 
-// Unit, or zero where the triangle has no area.
+// Unit; zero where the triangle's height is less than 2^-20 of its length: then half a radian or more is rounding.
 vec3 faceNormal(uint row) {
-  return unitOrZero(areaNormal(worldTriangles[row].a.xyz, worldTriangles[row].b.xyz, worldTriangles[row].c.xyz));
+  vec3 a = worldTriangles[row].a.xyz, b = worldTriangles[row].b.xyz, c = worldTriangles[row].c.xyz;
+  vec3 normal = areaNormal(a, b, c), ab = b - a, bc = c - b, ca = a - c;
+  float longest = max(dot(ab, ab), max(dot(bc, bc), dot(ca, ca)));
+  return length(normal) > 9.5e-7 * longest ? unitOrZero(normal) : vec3(0.0);
 }
 
 uint codeOf(vec3 normal) {
@@ -36,13 +40,43 @@ uint codeOf(vec3 normal) {
 // Mirrored rows have b and c exchanged, so edge ab lies where ca was.
 uint edgeInRow(uint edge, bool mirrored) { return mirrored ? 2u - edge : edge; }
 
+vec3 normalBeyond(WorldInstance instance, uint triangle, uint edge) {
+  uint beyond = topology[instance.triangles.z + triangle].neighbours[edge];
+  return beyond == NO_NEIGHBOUR ? vec3(0.0) : faceNormal(instance.triangles.x + beyond);
+}
+
+uint longestEdge(uint row, bool mirrored) {
+  vec3 ab = worldTriangles[row].b.xyz - worldTriangles[row].a.xyz;
+  vec3 bc = worldTriangles[row].c.xyz - worldTriangles[row].b.xyz;
+  vec3 ca = worldTriangles[row].a.xyz - worldTriangles[row].c.xyz;
+  float ab2 = dot(ab, ab), bc2 = dot(bc, bc), ca2 = dot(ca, ca);
+  return edgeInRow(ab2 >= bc2 && ab2 >= ca2 ? 0u : bc2 >= ca2 ? 1u : 2u, mirrored);
+}
+
+// A face's normal as it counts at one of its edges, or at a corner (edge 3): a sliver's longest edge sees through it to
+// what lies at the other two, these and the corner between them to what lies at the longest.
+vec3 normalSeenFrom(WorldInstance instance, bool mirrored, uint triangle, uint edge) {
+  uint row = instance.triangles.x + triangle;
+  vec3 own = faceNormal(row);
+  if (dot(own, own) > 0.0) return own;
+  uint longest = longestEdge(row, mirrored);
+  if (edge != longest) return normalBeyond(instance, triangle, longest);
+  return unitOrZero(normalBeyond(instance, triangle, (edge + 1u) % 3u) +
+                    normalBeyond(instance, triangle, (edge + 2u) % 3u));
+}
+
+uint edgeTowards(WorldInstance instance, uint triangle, uint beyond) {
+  uvec4 back = topology[instance.triangles.z + beyond].neighbours;
+  return back.x == triangle ? 0u : back.y == triangle ? 1u : 2u;
+}
+
 void codeEdges(WorldInstance instance, bool mirrored, uint triangle) {
   uint row = instance.triangles.x + triangle;
   uvec4 beyond = topology[instance.triangles.z + triangle].neighbours;
-  vec3 own = faceNormal(row);
   for (uint edge = 0u; edge < 3u; ++edge) {
-    vec3 sum = own;
-    if (beyond[edge] != NO_NEIGHBOUR) sum += faceNormal(instance.triangles.x + beyond[edge]);
+    vec3 own = normalSeenFrom(instance, mirrored, triangle, edge), sum = own;
+    if (beyond[edge] != NO_NEIGHBOUR)
+      sum += normalSeenFrom(instance, mirrored, beyond[edge], edgeTowards(instance, triangle, beyond[edge]));
     // Two faces that fold onto each other leave nothing between them; then any side is as good.
     uint code = codeOf(dot(sum, sum) > 1e-12 ? sum : own);
     uint place = edgeInRow(edge, mirrored);
@@ -60,7 +94,7 @@ void codeVertex(WorldInstance instance, bool mirrored, uint vertex) {
     if (mirrored && corner > 0u) corner = 3u - corner;
     vec3 tip = cornerOf(row, corner);
     vec3 first = cornerOf(row, (corner + 1u) % 3u) - tip, second = cornerOf(row, (corner + 2u) % 3u) - tip;
-    vec3 normal = faceNormal(row);
+    vec3 normal = normalSeenFrom(instance, mirrored, fanCorners[i] >> 2u, 3u);
     if (dot(normal, normal) > 0.0) sum += normal * atan(length(cross(first, second)), dot(first, second));
   }
   uint code = codeOf(sum);

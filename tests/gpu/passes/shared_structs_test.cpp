@@ -5,6 +5,9 @@
 #include "shared/frame_params.h"
 #include "shared/mesh_params.h"
 #include "shared/sdf_params.h"
+#include "shared/triangle_hierarchy_params.h"
+#include "shared/world_field_params.h"
+#include "shared/world_triangles_params.h"
 #include "tests/gpu/passes/shader_bench.h"
 #include "tests/support/gl_fixture.h"
 
@@ -83,6 +86,29 @@ TEST_F(SharedStructs, RowsOfSdfObjects) {
   expectRows("BoxCommand", "sdf_params.h", sizeof(shared::BoxCommand),
              {MEMBER(BoxCommand, vertices), MEMBER(BoxCommand, instances), MEMBER(BoxCommand, firstVertex),
               MEMBER(BoxCommand, baseInstance)});
+}
+
+TEST_F(SharedStructs, RowsOfTheWorldField) {
+  expectRows(
+      "WorldTriangle", "world_field_params.h", sizeof(shared::WorldTriangle),
+      {MEMBER(WorldTriangle, a), MEMBER(WorldTriangle, b), MEMBER(WorldTriangle, c), MEMBER(WorldTriangle, codes)});
+  expectRows(
+      "WorldInstance", "world_field_params.h", sizeof(shared::WorldInstance),
+      {MEMBER(WorldInstance, anchoredFromObject), MEMBER(WorldInstance, triangles), MEMBER(WorldInstance, vertices)});
+  expectRows("FieldCascade", "world_field_params.h", sizeof(shared::FieldCascade),
+             {MEMBER(FieldCascade, window), MEMBER(FieldCascade, texel), MEMBER(FieldCascade, buffers)});
+  expectRows("TopologyRow", "world_triangles_params.h", sizeof(shared::TopologyRow),
+             {MEMBER(TopologyRow, corners), MEMBER(TopologyRow, neighbours)});
+  expectRows("GatherChunk", "world_triangles_params.h", sizeof(shared::GatherChunk),
+             {MEMBER(GatherChunk, instance), MEMBER(GatherChunk, first), MEMBER(GatherChunk, count),
+              MEMBER(GatherChunk, vertexOffset)});
+}
+
+TEST_F(SharedStructs, RowsOfTheTriangleHierarchy) {
+  expectRows(
+      "HierarchyNode", "triangle_hierarchy_params.h", sizeof(shared::HierarchyNode),
+      {MEMBER(HierarchyNode, x), MEMBER(HierarchyNode, y), MEMBER(HierarchyNode, z), MEMBER(HierarchyNode, children)});
+  expectRows("RefitRow", "triangle_hierarchy_params.h", sizeof(shared::RefitRow), {MEMBER(RefitRow, nodes)});
 }
 
 // Values travel: a struct filled here is read member by member there.

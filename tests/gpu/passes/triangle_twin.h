@@ -36,7 +36,8 @@ TriangleHit<Float> closestOnTriangle(const glm::vec<3, Float>& p, const glm::vec
   const Vector ac = c - a, n = glm::cross(edges[0], ac);
   const Float n2 = glm::dot(n, n);
   const Float v = glm::dot(glm::cross(starts[0], ac), n), w = glm::dot(glm::cross(edges[0], starts[0]), n);
-  if (!(glm::min(v, w) > 0 && v + w < n2)) return hit;
+  if (!(glm::min(v, w) > 0 && v + w < n2 && n2 > Float(1e-12f) * glm::dot(edges[0], edges[0]) * glm::dot(ac, ac)))
+    return hit;
   const Vector offset = starts[0] - (v / n2) * edges[0] - (w / n2) * ac;
   if (glm::dot(offset, offset) <= hit.squared) hit = {glm::dot(offset, offset), p - offset, 0};
   return hit;

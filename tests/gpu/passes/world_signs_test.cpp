@@ -134,5 +134,49 @@ TEST_F(WorldSignsTest, ClosestFeaturesTellInsideFromOutside) {
   }
 }
 
+// One face ends in the middle of another's edge, and a triangle without area closes the seam.
+TEST_F(WorldSignsTest, SliversPassOnTheNormalsOfTheirNeighbours) {
+  Mesh mesh;
+  Primitive& primitive = mesh.primitives.emplace_back();
+  // Sharp along the edge 0-1, where vertex 4 lies: the faces there are 20 degrees apart.
+  primitive.positions = {{-1, 0, 0}, {1, 0, 0}, {0, 0.25f, 1.5f}, {0, -0.25f, 1.5f}, {0.25f, 0, 0}};
+  primitive.normals.assign(5, glm::vec3(0, 0, 1));
+  primitive.indices = {1, 0, 2, 0, 1, 4, 0, 4, 3, 4, 1, 3, 1, 2, 3, 0, 3, 2};
+  Scene scene;
+  scene.meshes.push_back(mesh);
+  scene.nodes.resize(1);
+  scene.nodes[0].mesh = 0;
+  scene.scenes.push_back({"scene", {0}});
+  for (const float mirror : {1.0f, -1.0f}) {
+    scene.nodes[0].scale = {1, mirror, 1};
+    const Pose pose = poseScene(scene, {});
+    Gathering gathering(scene);
+    gathering.set(pose, glm::dvec3(0));
+    const std::vector<shared::WorldTriangle> triangles = gathering.gather();
+    const FieldOracle oracle(scene, pose);
+    ASSERT_EQ(oracle.closedParts(), 1u);
+    std::vector<glm::dvec3> points;
+    std::vector<std::uint32_t> numbers;
+    std::vector<FieldTruth> truths;
+    std::mt19937 engine(2);
+    std::uniform_real_distribution<double> uniform(-0.1, 0.1);
+    for (int i = 0; i < 500; ++i) {
+      const glm::dvec3 point(glm::vec3(10 * uniform(engine), uniform(engine), uniform(engine)));
+      for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        points.push_back(point), numbers.push_back(t);
+        truths.push_back(oracle.at(point));
+      }
+    }
+    const std::vector<float> actual = ask(triangles, points, numbers);
+    std::size_t bySliver = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (truths[i].closedDistance < 1e-5 || std::abs(actual[i]) > truths[i].closedDistance + 1e-6) continue;
+      EXPECT_EQ(actual[i] < 0, truths[i].insideClosed) << "triangle " << numbers[i];
+      bySliver += numbers[i] == 1 ? 1 : 0;
+    }
+    EXPECT_GT(bySliver, 100u);
+  }
+}
+
 } // namespace
 } // namespace brickfield::test
