@@ -37,6 +37,11 @@ const std::vector<ProgramSource>& programs() {
       compute("tone", "passes/tone.comp.glsl"),
       compute("world_triangles", "passes/world_triangles.comp.glsl"),
       compute("world_pseudonormals", "passes/world_pseudonormals.comp.glsl"),
+      compute("hierarchy_refit", "passes/hierarchy_refit.comp.glsl"),
+      compute("rtsdf_voxelize", "passes/rtsdf_voxelize.comp.glsl"),
+      compute("rtsdf_jump_flood", "passes/rtsdf_jump_flood.comp.glsl"),
+      compute("rtsdf_rays", "passes/rtsdf_rays.comp.glsl"),
+      {"rtsdf_rays_counting", {{GL_COMPUTE_SHADER, "passes/rtsdf_rays.comp.glsl"}}, {{"COUNTERS_ON", "1"}}, {}},
       compute("debug_view", "debug/debug_view.comp.glsl"),
   };
   return table;

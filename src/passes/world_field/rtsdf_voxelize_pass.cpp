@@ -1,0 +1,38 @@
+// Three dispatches: clear, triangles by threads, large ones by work groups.
+#include "passes/world_field/rtsdf_voxelize_pass.h"
+
+#include "shared/rtsdf_params.h"
+
+namespace brickfield {
+
+RtsdfVoxelizePass::RtsdfVoxelizePass(ShaderLibrary& shaders)
+    : program_(shaders.load({"rtsdf_voxelize", {{GL_COMPUTE_SHADER, "passes/rtsdf_voxelize.comp.glsl"}}, {}, {}})) {}
+
+PassDeclaration RtsdfVoxelizePass::declare() {
+  return {"rtsdf_voxelize",
+          {{Resource::WorldTriangles, Access::StorageRead}},
+          {{Resource::WorldFieldSeeds, Access::StorageWrite}}};
+}
+
+void RtsdfVoxelizePass::record(RtsdfField& field, const Buffer& triangles, std::uint32_t triangleCount) {
+  if (field.settings().bruteForce) return;
+  const int size = field.settings().coarseSize;
+  triangles.bindStorage(shared::kRtsdfTriangleBinding);
+  field.seeds(0).bindStorage(shared::kRtsdfSeedBinding);
+  field.largeTriangles().bindStorage(shared::kRtsdfLargeBinding);
+  program_->set("triangleCount", triangleCount);
+  program_->set("coarseSize", size);
+  program_->set("originAnchored", field.originAnchored());
+  program_->set("voxelsPerMetre", static_cast<float>(size) / field.texelsOf(1) * field.cascade().texel.y);
+  program_->set("stage", shared::RTSDF_CLEAR);
+  program_->dispatchOver({size * size * size, 1, 1});
+  if (triangleCount == 0) return;
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  program_->set("stage", shared::RTSDF_VOXELIZE_SMALL);
+  program_->dispatchOver({static_cast<int>(triangleCount), 1, 1});
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  program_->set("stage", shared::RTSDF_VOXELIZE_LARGE);
+  glDispatchCompute(std::min(triangleCount, shared::RTSDF_LARGE_GROUPS), 1, 1);
+}
+
+} // namespace brickfield
