@@ -21,6 +21,10 @@ namespace {
 // A slab half a voxel to each side can fall between two samples and vanish; a sixteenth more cannot, and two steps of
 // the 8-bit code are left below zero.
 constexpr double kLeastHalfThicknessVoxels = 0.5625;
+// A double-sided shell of smaller triangles is taken for the skin of something that is seen from outside. Larger ones
+// are walls: what they stand around is a room, and their slabs lie on its outer side; flat ones stand around nothing.
+constexpr double kFineTriangleVoxels = 16;
+constexpr double kFlatShare = 0.95; // of the area that is left when area vectors are added up
 constexpr std::uint64_t kMostBytes = kMaxFieldBytes;
 constexpr std::uint64_t kReportEveryBricks = 32;
 
@@ -109,9 +113,12 @@ private:
       request.voxelSize = voxelMetres * soup_.unitsPerMetre;
       request.halfThickness = halfThicknessMetres(voxelMetres) * soup_.unitsPerMetre;
       request.isCutOut.resize(soup_.triangles.size());
-      for (std::size_t t = 0; t < soup_.triangles.size(); ++t)
-        request.isCutOut[t] =
-            materialOf(*input_.scene, *input_.primitives[soup_.primitiveIndices[t]]).alphaMode != AlphaMode::Opaque;
+      request.isDoubleSided.resize(soup_.triangles.size());
+      for (std::size_t t = 0; t < soup_.triangles.size(); ++t) {
+        const Material& material = materialOf(*input_.scene, *input_.primitives[soup_.primitiveIndices[t]]);
+        request.isCutOut[t] = material.alphaMode != AlphaMode::Opaque;
+        request.isDoubleSided[t] = material.doubleSided;
+      }
       split = findSheets(soup_, topology_, request);
     } else {
       split.solid = std::move(all);
@@ -121,10 +128,74 @@ private:
         cutMaskedSheets(input_, soup_, split.sheets, longestSide() / settings_.resolution * soup_.unitsPerMetre);
     if (split.sheets.empty() && split.solid.empty())
       throw BadInput(input_.label, "", "is cut away entirely by its alpha mask");
-    if (!split.sheets.empty()) surfaces_.sheets.emplace(sheetHierarchy_.emplace(soup_, std::move(split.sheets)));
+    if (!split.sheets.empty()) {
+      sheets_ = split.sheets;
+      surfaces_.sheets.emplace(sheetHierarchy_.emplace(soup_, std::move(split.sheets)));
+      surfaces_.slabs.emplace(soup_, *sheetHierarchy_, slabRequest());
+    }
     if (split.solid.empty()) return;
     surfaces_.solid.emplace(solidHierarchy_.emplace(soup_, std::move(split.solid)));
     inside_.emplace(soup_, topology_, *solidHierarchy_, settings_.sign, input_.label);
+  }
+
+  /// Slabs as thin as can be shown lie behind their fronts where those can be told: a thickness that was asked for is
+  /// shared by both sides, and so is that of cards and of meshes whose neighbours disagree on the front.
+  SlabRequest slabRequest() const {
+    SlabRequest request;
+    const double voxelMetres = longestSide() / settings_.resolution;
+    request.halfThickness = halfThicknessMetres(voxelMetres) * soup_.unitsPerMetre;
+    request.mayLieBehind.resize(soup_.triangles.size());
+    request.isDoubleSided.resize(soup_.triangles.size());
+    request.isTurned.resize(soup_.triangles.size());
+    if (settings_.sign != SignMethod::Auto || settings_.thickness > 0) return request;
+    const double fineArea = std::pow(kFineTriangleVoxels * voxelMetres * soup_.unitsPerMetre, 2.0);
+    const std::vector<ComponentShape> shapes = componentShapes();
+    for (std::uint32_t t = 0; t < soup_.firstPiece(); ++t) {
+      const Material& material = materialOf(*input_.scene, *input_.primitives[soup_.primitiveIndices[t]]);
+      const ComponentShape& shape = shapes[topology_.componentOf[t]];
+      const bool isWall = material.doubleSided && shape.area > fineArea * static_cast<double>(shape.triangleCount);
+      request.isDoubleSided[t] = material.doubleSided;
+      request.isTurned[t] = isWall && shape.outwardness() > 0;
+      request.mayLieBehind[t] = !topology_.isFlatPair[t] && !topology_.isTwisted[t] &&
+                                material.alphaMode == AlphaMode::Opaque && !(isWall && shape.isFlat());
+    }
+    return request;
+  }
+
+  /// Sums over the triangles of a component, in soup space.
+  struct ComponentShape {
+    std::size_t triangleCount = 0;
+    double area = 0, flux = 0;
+    glm::dvec3 areaVector{0.0}, areaCentroid{0.0};
+
+    bool isFlat() const { return glm::length(areaVector) > kFlatShare * area; }
+    /// Volume of the cones to the centroid, three times: positive where the fronts face away from it.
+    double outwardness() const { return flux - glm::dot(areaVector, areaCentroid / area); }
+  };
+  /// By MeshTopology::componentOf.
+  std::vector<ComponentShape> componentShapes() const {
+    std::vector<ComponentShape> shapes(soup_.triangles.size());
+    for (std::uint32_t t = 0; t < soup_.firstPiece(); ++t) {
+      ComponentShape& shape = shapes[topology_.componentOf[t]];
+      const auto [a, b, c] = soup_.corners(t);
+      const glm::dvec3 areaVector = 0.5 * glm::cross(b - a, c - a), centroid = (a + b + c) / 3.0;
+      ++shape.triangleCount;
+      shape.area += glm::length(areaVector);
+      shape.flux += glm::dot(areaVector, centroid);
+      shape.areaVector += areaVector;
+      shape.areaCentroid += glm::length(areaVector) * centroid;
+    }
+    return shapes;
+  }
+
+  /// The surface's bounds in object space with the slabs of a level of such voxels.
+  Box withSlabs(double voxelMetres) const {
+    glm::dvec3 low(0.0), high(0.0); // of soup space: its zero is the middle of the mesh
+    surfaces_.slabs->growBounds(sheets_, halfThicknessMetres(voxelMetres) * soup_.unitsPerMetre, low, high);
+    Box box = soup_.boundsObject;
+    box.extend(Box{glm::vec3(low / soup_.unitsPerMetre + soup_.centerObject),
+                   glm::vec3(high / soup_.unitsPerMetre + soup_.centerObject)});
+    return box;
   }
 
   GridLayout layoutLevels() const {
@@ -134,8 +205,7 @@ private:
       // by less than a fifth, which the voxel around the box makes up for.
       int coarsest = settings_.mips - 1;
       while (coarsest > 0 && (kBrickCells << coarsest) > settings_.resolution + 2) --coarsest;
-      const double finest = longestSide() / settings_.resolution;
-      surface = surface.expanded(static_cast<float>(halfThicknessMetres(std::ldexp(finest, coarsest))));
+      surface = withSlabs(std::ldexp(longestSide() / settings_.resolution, coarsest));
     }
     try {
       return layoutGrid(surface, settings_.resolution, settings_.mips);
@@ -207,6 +277,7 @@ private:
   std::optional<MeshHierarchy> solidHierarchy_, sheetHierarchy_;
   BakeSurfaces surfaces_;
   std::optional<InsideTest> inside_;
+  std::vector<std::uint32_t> sheets_;
   std::size_t sheetCount_ = 0;
 };
 

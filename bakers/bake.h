@@ -12,15 +12,16 @@
 namespace brickfield {
 
 /// How inside and outside are told apart:
-///   Auto          closed components are solid, inside out or not; open ones behind their faces, where they wrap a
-///                 point by at least half (membranes close holes); what encloses nothing is a sheet
+///   Auto          closed components are solid, inside out or not; open ones that nearly close as well, where they wrap
+///                 a point by at least half (membranes close holes); other open ones are sheets as a whole
 ///   Winding       inside where the winding number of all triangles is at least one half, of either sign; no sheets
 ///   Parity        inside where rays cross an odd number of triangles; no sheets
 ///   Pseudonormal  by the closest feature's normal; closed manifolds only
 ///   TwoSided      everything is a sheet
 /// A sheet is the slab of points up to half a thickness away, at least 0.5625 voxel of its level: thinner, it could
-/// fall between two samples. Masked sheets are cut along their masks; those of single-sided materials cover their front
-/// alone.
+/// fall between two samples. Where no thickness is asked for and its front can be told, the slab of Auto lies behind the
+/// front instead, 1.755 voxels deep (sheet_slabs.h). Masked sheets are cut along their masks; those of single-sided
+/// materials cover their front alone.
 struct BakeSettings {
   int resolution = 128; ///< voxels along the longest side of the surface's box, sheets' thickness included; 8 to 1024
   int bits = 8;         ///< 8 or 16

@@ -89,18 +89,23 @@ private:
     const PointOnTriangle on = closestPointOnTriangle(sample, corners);
     PackedAttributes packed = request_.attributes->at(triangle, on, request_.layout.voxelSizeObject);
     if (samples_.isSheet[begin_ + i] && request_.attributes->isSingleSided(triangle))
-      coverFrontOnly(packed, glm::dot(sample - on.point, frontOf(corners)));
+      coverFrontOnly(packed, glm::dot(sample - on.point, frontOf(corners)) + behindMiddle(triangle));
     return packed;
   }
   static glm::dvec3 frontOf(const std::array<glm::dvec3, 3>& corners) {
     return glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
   }
+  /// How far the middle of a triangle's slab lies behind it.
+  double behindMiddle(std::uint32_t triangle) const {
+    const double half = request_.sampling.halfThickness;
+    return request_.sampling.surfaces->slabs->isBehind(triangle) ? 0.5 * SheetSlabs::depthOf(half) : 0.0;
+  }
   /// A slab of a single-sided material is seen from its front alone: coverage runs from 0 to 1 over the voxel around
-  /// the triangle, so that read at the slab's faces, half a voxel away or more, it is under 1/4 behind and over 3/4 in
-  /// front.
-  void coverFrontOnly(PackedAttributes& packed, double beforeFront) const {
+  /// the slab's middle, so that read at the slab's faces, half a voxel away or more, it is under 1/4 behind and over
+  /// 3/4 in front.
+  void coverFrontOnly(PackedAttributes& packed, double beforeMiddle) const {
     glm::vec4 color = unpackRgba8(packed.baseColor);
-    color.w *= static_cast<float>(std::clamp(0.5 + beforeFront / request_.sampling.grid.voxelSize, 0.0, 1.0));
+    color.w *= static_cast<float>(std::clamp(0.5 + beforeMiddle / request_.sampling.grid.voxelSize, 0.0, 1.0));
     packed.baseColor = packRgba8(color);
   }
 

@@ -41,9 +41,13 @@ PointBound boundAt(const SamplingRequest& request, glm::dvec3 point, Hints& hint
   if (request.surfaces->sheets) {
     const ClosestTriangle closest = request.surfaces->sheets->closest(point, HUGE_VAL, hints.sheet);
     hints.sheet = closest.triangle;
-    const double fromSlab = closest.distance - request.halfThickness;
+    const SheetSlabs& slabs = *request.surfaces->slabs;
+    const double fromSlab = slabs.distance(point, closest, request.halfThickness);
     bound.inSheet = fromSlab < 0;
-    bound.voxels = std::min(bound.voxels, std::abs(fromSlab) / request.grid.voxelSize);
+    // A slab behind another sheet's triangle may reach this much nearer than the closest triangle's own.
+    const double least =
+        slabs.areAllCentred() ? std::abs(fromSlab) : closest.distance - SheetSlabs::depthOf(request.halfThickness);
+    bound.voxels = std::min(bound.voxels, std::max(least, 0.0) / request.grid.voxelSize);
   }
   return bound;
 }
@@ -88,11 +92,12 @@ void boundCells(const SamplingRequest& request, LevelSamples& level) {
 struct SurfaceSampler {
   const SampleGrid& grid;
   const MeshDistance& surface;
-  double offset; ///< taken off the distance
+  const SheetSlabs* slabs; ///< nothing: the distance is the triangles' own
+  double halfThickness;    ///< of the slabs
   bool isCapped;
 
   void run(glm::ivec3 brick, float* distances, std::uint32_t* triangles) const {
-    const double cap = kSampledRangeVoxels * grid.voxelSize + offset;
+    const double cap = kSampledRangeVoxels * grid.voxelSize + (slabs ? SheetSlabs::depthOf(halfThickness) : 0.0);
     std::uint32_t rowHint = kNoTriangle, layerHint = kNoTriangle;
     std::size_t i = 0;
     for (int z = 0; z < kBrickSamples; ++z)
@@ -100,10 +105,14 @@ struct SurfaceSampler {
         std::uint32_t hint = y == 0 ? layerHint : rowHint;
         for (int x = 0; x < kBrickSamples; ++x, ++i) {
           const double limit = isCapped && i > 0 ? cap : HUGE_VAL;
-          const ClosestTriangle closest = surface.closest(grid.sample(brick, {x, y, z}), limit, hint);
-          if (closest.triangle != kNoTriangle) hint = closest.triangle;
-          const double distance = closest.triangle != kNoTriangle ? closest.distance : cap;
-          distances[i] = static_cast<float>((distance - offset) / grid.voxelSize);
+          const glm::dvec3 point = grid.sample(brick, {x, y, z});
+          const ClosestTriangle closest = surface.closest(point, limit, hint);
+          double distance = kSampledRangeVoxels * grid.voxelSize;
+          if (closest.triangle != kNoTriangle) {
+            hint = closest.triangle;
+            distance = slabs ? slabs->distance(point, closest, halfThickness) : closest.distance;
+          }
+          distances[i] = static_cast<float>(distance / grid.voxelSize);
           triangles[i] = hint;
           if (x == 0) rowHint = hint;
           if (x == 0 && y == 0) layerHint = hint;
@@ -175,10 +184,10 @@ float boundBySamples(float leastVoxels) {
 void sampleBrick(const SamplingRequest& request, glm::ivec3 brick, bool isCapped, BrickSamples& samples) {
   const BakeSurfaces& surfaces = *request.surfaces;
   if (surfaces.solid)
-    SurfaceSampler{request.grid, *surfaces.solid, 0, isCapped}.run(brick, samples.solidDistances.data(),
-                                                                   samples.solidTriangles.data());
+    SurfaceSampler{request.grid, *surfaces.solid, nullptr, 0, isCapped}.run(brick, samples.solidDistances.data(),
+                                                                            samples.solidTriangles.data());
   if (surfaces.sheets)
-    SurfaceSampler{request.grid, *surfaces.sheets, request.halfThickness, isCapped}.run(
+    SurfaceSampler{request.grid, *surfaces.sheets, &*surfaces.slabs, request.halfThickness, isCapped}.run(
         brick, samples.sheetDistances.data(), samples.sheetTriangles.data());
 }
 

@@ -8,16 +8,18 @@
 #include <vector>
 
 #include "bakers/mesh_distance.h"
+#include "bakers/sheet_slabs.h"
 #include "field/brick_layout.h"
 
 namespace brickfield {
 
 inline constexpr std::uint32_t kNoBrick = ~0u;
 
-/// The surfaces that a bake measures. Sheets count as the slab of all points up to half a thickness away.
+/// The surfaces that a bake measures.
 struct BakeSurfaces {
   std::optional<MeshDistance> solid;
   std::optional<MeshDistance> sheets;
+  std::optional<SheetSlabs> slabs; ///< of the sheets, wherever there are some
 };
 
 /// Samples of a level in soup space.

@@ -96,7 +96,7 @@ MeshTopology analyseTopology(const TriangleSoup& soup) {
   const std::size_t count = soup.triangles.size();
   const std::vector<DirectedEdge> edges = sortedEdges(soup);
   DisjointSets components(count + soup.slivers.size());
-  std::vector<std::uint32_t> unbalanced;
+  std::vector<std::uint32_t> unbalanced, twisted;
   forEachEdge(edges, [&](std::span<const DirectedEdge> uses) {
     for (const DirectedEdge& use : uses) components.unite(uses.front().triangle, use.triangle);
     const int net = netDirection(uses);
@@ -104,11 +104,20 @@ MeshTopology analyseTopology(const TriangleSoup& soup) {
     topology.nonManifoldEdges += uses.size() > 2 || (uses.size() == 2 && net != 0);
     topology.unbalancedEdges += net != 0;
     if (net != 0) unbalanced.push_back(uses.front().triangle);
+    if (net != 0 && uses.size() == 2) twisted.push_back(uses.front().triangle);
   });
-  std::vector<bool> isOpen(count + soup.slivers.size(), false);
+  std::vector<bool> isOpen(count + soup.slivers.size(), false), hasTwist = isOpen;
   for (const std::uint32_t triangle : unbalanced) isOpen[components.rootOf(triangle)] = true;
+  for (const std::uint32_t triangle : twisted) hasTwist[components.rootOf(triangle)] = true;
+  topology.componentOf.resize(count);
   topology.inClosedComponent.resize(count);
-  for (std::uint32_t t = 0; t < count; ++t) topology.inClosedComponent[t] = !isOpen[components.rootOf(t)];
+  topology.isTwisted.resize(count);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    const std::uint32_t component = components.rootOf(t); // the first triangle: slivers follow
+    topology.componentOf[t] = component;
+    topology.inClosedComponent[t] = !isOpen[component];
+    topology.isTwisted[t] = hasTwist[component];
+  }
   topology.isFlatPair.assign(count, false);
   topology.isFlatPairCopy.assign(count, false);
   findFlatPairs(soup, topology);

@@ -13,12 +13,14 @@ namespace brickfield {
 inline constexpr std::uint32_t kNoTriangle = ~0u;
 
 struct MeshTopology {
-  std::uint64_t openEdges = 0;         ///< used by one triangle
-  std::uint64_t nonManifoldEdges = 0;  ///< used by three or more, or by two that disagree on the direction
-  std::uint64_t unbalancedEdges = 0;   ///< more often walked in one direction than in the other
-  std::vector<bool> inClosedComponent; ///< a triangle
-  std::vector<bool> isFlatPair;        ///< a triangle: coincides with others so that they cancel out
-  std::vector<bool> isFlatPairCopy;    ///< a triangle: a flat pair's second, third...
+  std::uint64_t openEdges = 0;            ///< used by one triangle
+  std::uint64_t nonManifoldEdges = 0;     ///< used by three or more, or by two that disagree on the direction
+  std::uint64_t unbalancedEdges = 0;      ///< more often walked in one direction than in the other
+  std::vector<std::uint32_t> componentOf; ///< a triangle: the first triangle of its component
+  std::vector<bool> inClosedComponent;    ///< a triangle
+  std::vector<bool> isTwisted;            ///< a triangle: neighbours in its component disagree on the front
+  std::vector<bool> isFlatPair;           ///< a triangle: coincides with others so that they cancel out
+  std::vector<bool> isFlatPairCopy;       ///< a triangle: a flat pair's second, third...
 
   bool isClosed() const { return unbalancedEdges == 0; }
 };

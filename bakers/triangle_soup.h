@@ -42,6 +42,11 @@ struct TriangleSoup {
     const TriangleVertices& v = triangles[triangle];
     return {positions[v[0]], positions[v[1]], positions[v[2]]};
   }
+  /// Soup space.
+  double areaOf(std::uint32_t triangle) const {
+    const auto [a, b, c] = corners(triangle);
+    return 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
 };
 
 /// error BadInput that names input.label: indices out of range, a position that is not finite, no triangle of positive

@@ -10,11 +10,12 @@ using namespace brickfield::test;
 
 namespace {
 
-SolidsAndSheets split(const TriangleSoup& soup, double voxelMetres, bool isCutOut = false) {
+SolidsAndSheets split(const TriangleSoup& soup, double voxelMetres, bool isCutOut = false, bool isDoubleSided = false) {
   SheetRequest request;
   request.voxelSize = voxelMetres * soup.unitsPerMetre;
   request.halfThickness = 0.5 * request.voxelSize;
   request.isCutOut.assign(soup.triangles.size(), isCutOut);
+  request.isDoubleSided.assign(soup.triangles.size(), isDoubleSided);
   return findSheets(soup, analyseTopology(soup), request);
 }
 
@@ -83,19 +84,41 @@ TEST(Sheets, CutOutCardsAreWithoutALook) {
   EXPECT_EQ(split(bowl.soup(), 2.0 / 64, true).solid.size(), 0u);
 }
 
-TEST(Sheets, LargeTriangleThatIsOneInPartIsBoth) {
+TEST(Sheets, HouseStaysSolidOnAGroundThatIsOneAsAWhole) {
   MeshCase house; // walls and roof without a floor, on a ground plane that reaches beyond them and closes them
   house.addBox({-1, 0, -1}, {1, 2, 1});
   auto& indices = house.primitive().indices;
   indices.erase(indices.begin() + 12, indices.begin() + 18);     // the face at y = 0
   house.addQuad({-4, 0, -4}, {4, 0, -4}, {4, 0, 4}, {-4, 0, 4}); // faces down
   const SolidsAndSheets result = split(house.soup(), 8.0 / 128);
-  const auto counts = [](const std::vector<std::uint32_t>& list) {
-    return std::count_if(list.begin(), list.end(), [](std::uint32_t t) { return t >= 10; });
-  };
-  EXPECT_EQ(counts(result.sheets), 2);
-  EXPECT_EQ(counts(result.solid), 2);
-  EXPECT_EQ(result.solid.size(), 12u);
+  EXPECT_EQ(result.sheets, (std::vector<std::uint32_t>{10, 11}));
+  EXPECT_EQ(result.solid.size(), 10u);
+}
+
+TEST(Sheets, BoxWithoutLidIsOneWhereBothSidesShow) {
+  MeshCase box;
+  box.addBox(glm::vec3(-1), glm::vec3(1));
+  auto& indices = box.primitive().indices;
+  indices.erase(indices.begin() + 18, indices.begin() + 24); // the face at y = 1
+  EXPECT_EQ(split(box.soup(), 2.0 / 128, false, true).sheets.size(), 10u);
+  EXPECT_EQ(split(box.soup(), 2.0 / 128, false, false).solid.size(), 10u);
+}
+
+TEST(Sheets, RoomOfWallsIsOneAsAWhole) {
+  MeshCase room; // ceiling and three walls that face away from it: within, the winding number passes one half
+  room.addBox({-3, 0, -3}, {3, 2.7f, 3});
+  auto& indices = room.primitive().indices;
+  indices.erase(indices.begin() + 30, indices.end());        // the face at z = 3
+  indices.erase(indices.begin() + 12, indices.begin() + 18); // the floor
+  const TriangleSoup soup = room.soup();
+  EXPECT_GT(bruteWinding(soup, soup.soupFromObject({0, 1.5, -1})), 0.5);
+  EXPECT_EQ(split(soup, 6.0 / 128, false, true).sheets.size(), 8u);
+}
+
+TEST(Sheets, ShellThatNearlyClosesIsSolidAllOver) {
+  MeshCase ball; // without its cap: a hole of 22 degrees from the pole
+  ball.addSphere({0, 0, 0}, 1, 16, 32, 2);
+  EXPECT_EQ(split(ball.soup(), 2.0 / 128, false, true).sheets.size(), 0u);
 }
 
 TEST(Sheets, SheetThatAnotherOneHidAtFirstIsFound) {
