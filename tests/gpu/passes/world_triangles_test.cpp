@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
 
+#include "core/error.h"
 #include "scene/gltf_import.h"
 #include "scene/surface_topology.h"
 #include "tests/gpu/passes/world_gathering.h"
@@ -322,6 +323,51 @@ TEST_F(WorldTrianglesTest, PseudonormalsAreTheSumsOfDoubles) {
     }
     EXPECT_GT(compared, 1000u);
     EXPECT_LE(vague, compared / 1000) << compared; // slivers, and edges that fold back
+  }
+}
+
+// Two triangles of a sheet: the edge between them has both normals, the others their own face's.
+TEST_F(WorldTrianglesTest, OpenEdgesHaveTheNormalOfTheirFace) {
+  Scene scene = boxScene({at({0, 0, 0})});
+  Primitive& primitive = scene.meshes[0].primitives[0];
+  primitive.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  primitive.normals.assign(4, glm::vec3(0, 0, 1));
+  primitive.uvs = {};
+  primitive.indices = {0, 1, 2, 1, 0, 3};
+  for (const float mirror : {1.0f, -1.0f}) {
+    scene.nodes[0].matrix = glm::scale(glm::mat4(1), {1, mirror, 1});
+    Gathering gathering(scene);
+    gathering.set(poseScene(scene, {}), glm::dvec3(0));
+    const auto triangles = gathering.gather();
+    ASSERT_EQ(triangles.size(), 2u);
+    glm::dvec3 sum(0);
+    for (const shared::WorldTriangle& t : triangles) sum += glm::normalize(areaNormal(t));
+    for (const shared::WorldTriangle& t : triangles) {
+      EXPECT_EQ(t.codes.w & 3u, 0u);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::array<glm::vec3, 4> corners{t.a, t.b, t.c, t.a};
+        const auto isOnX = [&](std::size_t corner) {
+          return glm::vec2(corners[corner].y, corners[corner].z) == glm::vec2(0);
+        };
+        const bool isShared = isOnX(k) && isOnX(k + 1);
+        EXPECT_LE(glm::distance(decoded(t.codes[static_cast<int>(k)]), glm::normalize(isShared ? sum : areaNormal(t))),
+                  6.5e-5)
+            << k;
+      }
+    }
+  }
+}
+
+TEST_F(WorldTrianglesTest, TooManyTrianglesAreOneClearLine) {
+  Scene scene = boxScene({glm::mat4(1)});
+  scene.meshes[0] = makeTorusMesh(1, 0.25f, 64, 64); // 2^13 triangles
+  scene.nodes[0].nodeFromInstance.assign((std::size_t{WorldTriangles::kMostTriangles} >> 13) + 1, glm::mat4(1));
+  Gathering gathering(scene);
+  try {
+    gathering.set(poseScene(scene, {}), glm::dvec3(0));
+    ADD_FAILURE() << "accepted";
+  } catch (const Failure& failure) {
+    EXPECT_STREQ(failure.what(), "world field: the pose draws more than 2^26 triangles of meshes");
   }
 }
 
