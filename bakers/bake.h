@@ -19,8 +19,8 @@ namespace brickfield {
 ///   Pseudonormal  by the closest feature's normal; closed manifolds only
 ///   TwoSided      everything is a sheet
 /// A sheet is the slab of points up to half a thickness away, at least 0.5625 voxel of its level: thinner, it could
-/// fall between two samples. Where no thickness is asked for and its front can be told, the slab of Auto lies behind the
-/// front instead, 1.755 voxels deep (sheet_slabs.h). Masked sheets are cut along their masks; those of single-sided
+/// fall between two samples. Where no thickness is asked for and its front can be told, the slab of Auto lies behind
+/// the front instead, 1.755 voxels deep (sheet_slabs.h). Masked sheets are cut along their masks; those of single-sided
 /// materials cover their front alone.
 struct BakeSettings {
   int resolution = 128; ///< voxels along the longest side of the surface's box, sheets' thickness included; 8 to 1024
