@@ -75,8 +75,12 @@ void TriangleHierarchy::update(std::span<const Box> boxesAnchored, std::span<con
   if (boxesAnchored.size() != instances_.size())
     throw Failure(
         fmt::format("triangle hierarchy: {} boxes for {} instances", boxesAnchored.size(), instances_.size()));
-  std::vector<RefitRow> rows, topRows;
   schedule_ = {};
+  const auto isSameBox = [](const Box& one, const Box& other) { return one.min == other.min && one.max == other.max; };
+  if (moved.empty() && std::equal(boxes_.begin(), boxes_.end(), boxesAnchored.begin(), boxesAnchored.end(), isSameBox))
+    return;
+  boxes_.assign(boxesAnchored.begin(), boxesAnchored.end());
+  std::vector<RefitRow> rows, topRows;
   scheduleInstances(moved, rows);
   buildTop(boxesAnchored, topRows);
   schedule_.top = {static_cast<std::uint32_t>(rows.size()), topRows.empty() ? 0u : 1u};

@@ -44,7 +44,8 @@ public:
   ///                instance out
   /// moved          instances whose triangles changed; at the first update all must be named
   /// error          Failure: an instance that does not exist
-  /// cost           CPU O(n log n) in instances; uploads 64 bytes an instance and 16 a work group
+  /// cost           CPU O(n log n) in instances; uploads 64 bytes an instance and 16 a work group; where nothing moved
+  ///                and the boxes are the same, none of that and nothing to refit
   void update(std::span<const Box> boxesAnchored, std::span<const std::uint32_t> moved);
 
   const RefitSchedule& schedule() const { return schedule_; }
@@ -68,6 +69,7 @@ private:
 
   std::vector<HierarchyTree> trees_; ///< without order: only nodes' heights are needed later
   std::vector<Placed> instances_;
+  std::vector<Box> boxes_; ///< of the last update
   std::uint32_t root_ = shared::HIERARCHY_NONE;
   std::uint32_t triangleCount_ = 0;
   RefitSchedule schedule_;

