@@ -22,6 +22,18 @@ SHARED_CONST uint kDeformInfluenceBinding = 2;
 SHARED_CONST uint kDeformMorphBinding = 3;
 SHARED_CONST uint kDeformJointBinding = 4;
 SHARED_CONST uint kDeformWeightBinding = 5;
+// The world field's passes
+SHARED_CONST uint kFieldUniformBinding = 1; // uniform buffer
+SHARED_CONST uint kFieldListBinding = 0;    // tiles or chunks to work on
+SHARED_CONST uint kWorldTriangleBinding = 1;
+SHARED_CONST uint kFieldKeyBinding = 2; // these three where no bricks are read
+SHARED_CONST uint kFieldSeedBinding = 3;
+SHARED_CONST uint kFieldSweepBinding = 4;
+SHARED_CONST uint kFieldIdBinding = 5;
+SHARED_CONST uint kFieldCandidateBinding = 6;
+SHARED_CONST uint kFieldNodeBinding = 6;
+SHARED_CONST uint kFieldSplatBinding = 6;
+SHARED_CONST uint kFieldTileBinding = 7;
 
 // Texture units
 SHARED_CONST uint kDistanceR8Unit = 0;

@@ -9,7 +9,7 @@ struct SdfInstance {
   vec4 gridFromWorld[3]; // rows of the affine transform
   vec4 worldFromGrid[3];
   vec4 boxMin; // grid space; w: largest metres of world that one voxel spans
-  vec4 boxMax; // grid space
+  vec4 boxMax; // grid space; w: smallest metres of world that one voxel spans
   ivec4 ids;   // x: node; y: first row in the level table; z: levels; w: SDF_* flags
 };
 SHARED_ASSERT_SIZE(SdfInstance, 144)

@@ -46,6 +46,40 @@ SHARED_ASSERT_SIZE(FieldCascade, 48)
 
 SHARED_CONST uint FIELD_WHOLE = 1; // nothing lies outside the window
 
+struct FieldParams {
+  FieldCascade cascades[MOST_CASCADES];
+  uvec4 counts; // x: cascades; y: bits of a triangle's number in a key; z: SDF instances; w: number of the update
+  vec4 anchor;  // world
+};
+SHARED_ASSERT_SIZE(FieldParams, 48 * 8 + 32)
+
+// What is kept of a tile.
+struct FieldTile {
+  uint update;      // number of the last update that made its keys anew
+  uint nearest;     // triangle nearest to any of its coarse texels, or FIELD_NONE
+  uint nearestBits; // distance of the two, texels; float bits
+  uint nearestTexel; // that coarse texel's number in the tile
+};
+SHARED_ASSERT_SIZE(FieldTile, 16)
+
+SHARED_CONST uint FIELD_NONE = 0xffffffffu; // no triangle; no key
+// A texel's node: number + 1, 0 where nothing is in range; and whether it lies inside a closed mesh.
+SHARED_CONST uint FIELD_NODE_INSIDE = 0x80000000u;
+SHARED_CONST uint FIELD_NODE_MASK = 0x3fffffffu;
+
+// Up to GATHER_TRIANGLES triangles to leave their keys in one cascade.
+struct FieldSplat {
+  uint firstTriangle;
+  uint count;
+  uint cascade;
+  uint unused;
+};
+SHARED_ASSERT_SIZE(FieldSplat, 16)
+
+// Parts of large triangles: boxes of 16^3 texels, counted from the window's first texel.
+SHARED_CONST uint SPLAT_PART_TEXELS = 16;
+SHARED_CONST uint SPLAT_PART_CAPACITY = 262144;
+
 SHARED_END
 
 #endif

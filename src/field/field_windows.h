@@ -74,7 +74,7 @@ private:
 };
 
 /// Distance, in texels, up to which a triangle leaves its key in the texels around it.
-inline constexpr float kFieldSplatTexels = 1.75f;
+inline constexpr float kFieldSplatTexels = 2.0f;
 /// How far the sweeps over coarse seeds look, in coarse texels of two.
 inline int fieldSweepReach(int rangeTexels) { return rangeTexels / 2 + 2; }
 

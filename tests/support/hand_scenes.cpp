@@ -57,7 +57,7 @@ Scene emptyScene() {
 
 Mesh makeTorusMesh(float majorRadius, float minorRadius, int segments, int sides) {
   return gridMesh("Torus", segments, sides, true, [&](float u, float v, Primitive& primitive) {
-    const float a = u * kTurn, b = v * kTurn;
+    const float a = std::fmod(u, 1.0f) * kTurn, b = std::fmod(v, 1.0f) * kTurn; // seams meet to the bit
     const glm::vec3 outwards(std::cos(a), std::sin(a), 0);
     const glm::vec3 normal = outwards * std::cos(b) + glm::vec3(0, 0, std::sin(b));
     primitive.positions.push_back(outwards * majorRadius + normal * minorRadius);
@@ -67,8 +67,9 @@ Mesh makeTorusMesh(float majorRadius, float minorRadius, int segments, int sides
 
 Mesh makeSphereMesh(float radius, int rings, int segments) {
   return gridMesh("Sphere", rings, segments, false, [&](float u, float v, Primitive& primitive) {
-    const float polar = u * kTurn / 2, around = v * kTurn;
-    const glm::vec3 normal(std::sin(polar) * std::cos(around), std::cos(polar), -std::sin(polar) * std::sin(around));
+    const float polar = u * kTurn / 2, around = std::fmod(v, 1.0f) * kTurn; // seams and poles meet to the bit
+    const float ring = u == 0 || u == 1 ? 0.0f : std::sin(polar);
+    const glm::vec3 normal(ring * std::cos(around), std::cos(polar), -ring * std::sin(around));
     primitive.positions.push_back(normal * radius);
     primitive.normals.push_back(normal);
   });

@@ -1,0 +1,10 @@
+// The band: tiles with a texel within four texels of a surface. There values are made with more care.
+#include "shared/world_field_params.h"
+
+// Four texels, from a texel's centre to the next coarse one's (0.87), half a sheet, and what the coarse candidate may
+// err by.
+const float BAND_TEXELS = 6.5;
+bool isBandTile(FieldTile tile) { return uintBitsToFloat(tile.nearestBits) < BAND_TEXELS; }
+
+// Any of its coarse texels found a surface within reach.
+bool isReachedTile(FieldTile tile) { return tile.nearest != FIELD_NONE; }

@@ -1,0 +1,57 @@
+// Where texels, coarse texels and tiles of the world field lie: see shared/world_field_params.h for the spaces.
+#include "shared/bindings.h"
+#include "shared/world_field_params.h"
+
+layout(std140, binding = kFieldUniformBinding) uniform FieldBlock { FieldParams field; };
+
+const int COARSE = 2;      // texels of a coarse one, along a side
+const int COARSE_TILE = 4; // coarse texels of a tile, along a side
+const uint COARSE_TILE_TEXELS = 64u;
+
+uint tileSlot(FieldCascade cascade, ivec3 tileLattice) {
+  int tiles = cascade.window.w >> 3;
+  ivec3 slot = tileLattice & (tiles - 1);
+  return uint((slot.z * tiles + slot.y) * tiles + slot.x);
+}
+
+bool isInWindow(FieldCascade cascade, ivec3 lattice) {
+  ivec3 inWindow = lattice - cascade.window.xyz;
+  return all(greaterThanEqual(inWindow, ivec3(0))) && all(lessThan(inWindow, cascade.window.www));
+}
+
+uint indexInTile(ivec3 lattice, int side) {
+  ivec3 at = lattice & (side - 1);
+  return uint((at.z * side + at.y) * side + at.x);
+}
+
+// Word of a texel in the buffers that hold one word a texel.
+uint texelWord(FieldCascade cascade, ivec3 lattice) {
+  return cascade.buffers.x + tileSlot(cascade, lattice >> 3) * FIELD_TILE_TEXELS + indexInTile(lattice, int(FIELD_TILE));
+}
+
+// The same of a coarse texel; coarse lattice = lattice / 2.
+uint coarseWord(FieldCascade cascade, ivec3 coarse) {
+  return cascade.buffers.y + tileSlot(cascade, coarse >> 2) * COARSE_TILE_TEXELS + indexInTile(coarse, COARSE_TILE);
+}
+
+struct ListedTile {
+  uint cascade;
+  uint word;        // in the buffer of tiles
+  ivec3 firstTexel; // lattice
+};
+
+ListedTile listedTile(uint listed) {
+  uint slot = listed & 0xffffffu;
+  FieldCascade cascade = field.cascades[listed >> 24];
+  int tiles = cascade.window.w >> 3;
+  ivec3 at = ivec3(int(slot) % tiles, int(slot) / tiles % tiles, int(slot) / (tiles * tiles));
+  ivec3 firstTile = cascade.window.xyz >> 3;
+  ivec3 tileLattice = firstTile + ((at - firstTile) & (tiles - 1));
+  return ListedTile(listed >> 24, cascade.buffers.z + slot, tileLattice * int(FIELD_TILE));
+}
+
+vec3 texelCenter(FieldCascade cascade, ivec3 lattice) { return (vec3(lattice) + 0.5) * cascade.texel.x; }
+vec3 coarseCenter(FieldCascade cascade, ivec3 coarse) { return (vec3(coarse) + 0.5) * (2.0 * cascade.texel.x); }
+
+// Work groups of a long list, which one dimension cannot number.
+uint listIndex() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }

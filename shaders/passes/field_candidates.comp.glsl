@@ -1,0 +1,61 @@
+// The triangle of each coarse texel: the nearest of those that its and its neighbours' nearest seeds name.
+#include "lib/field_candidates.glsl"
+#include "lib/field_grid.glsl"
+#include "lib/field_sweep.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
+layout(std430, binding = kFieldSeedBinding) readonly buffer SeedBlock { uint seeds[]; };
+layout(std430, binding = kFieldSweepBinding) readonly buffer SweepBlock { uint sweeps[]; };
+layout(std430, binding = kFieldCandidateBinding) writeonly buffer CandidateBlock { uint candidates[]; };
+layout(std430, binding = kFieldTileBinding) buffer TileBlock { FieldTile tiles[]; };
+
+uniform uint listLength;
+
+const int APRON = COARSE_TILE + 2;
+shared uint named[APRON * APRON * APRON];
+shared uint leastBits, leastTexel;
+
+uint seedNamedBy(FieldCascade cascade, ivec3 coarse) {
+  if (!isInWindow(cascade, coarse * COARSE)) return FIELD_NONE;
+  uint word = sweeps[coarseWord(cascade, coarse)];
+  if (!hasSweep(word, SWEEP_Z_SHIFT)) return FIELD_NONE;
+  ivec3 inPlane = coarse + ivec3(0, 0, sweepOffset(word, SWEEP_Z_SHIFT));
+  uint plane = sweeps[coarseWord(cascade, inPlane)];
+  ivec3 seed = inPlane + ivec3(sweepOffset(plane, SWEEP_PLANE_X_SHIFT), sweepOffset(plane, SWEEP_PLANE_Y_SHIFT), 0);
+  return seeds[coarseWord(cascade, seed)];
+}
+
+void main() {
+  uint index = listIndex();
+  if (index >= listLength) return;
+  ListedTile tile = listedTile(listed[index]);
+  FieldCascade cascade = field.cascades[tile.cascade];
+  ivec3 first = tile.firstTexel / COARSE;
+  if (gl_LocalInvocationIndex == 0u) leastBits = 0x7f800000u, leastTexel = 64u; // infinity
+  for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += 64)
+    named[i] = seedNamedBy(cascade, first - 1 + ivec3(i % APRON, i / APRON % APRON, i / (APRON * APRON)));
+  barrier();
+  ivec3 at = ivec3(gl_LocalInvocationIndex & 3u, gl_LocalInvocationIndex >> 2 & 3u, gl_LocalInvocationIndex >> 4);
+  vec3 point = coarseCenter(cascade, first + at);
+  float sheetHalf = cascade.texel.w * cascade.texel.x;
+  Nearest nearest = Nearest(FIELD_NONE, 1e30);
+  int own = ((at.z + 1) * APRON + at.y + 1) * APRON + at.x + 1;
+  consider(named[own], point, sheetHalf, nearest);
+  for (int i = 0; i < 27; ++i)
+    consider(named[own + ((i / 9 - 1) * APRON + i / 3 % 3 - 1) * APRON + i % 3 - 1], point, sheetHalf, nearest);
+  candidates[coarseWord(cascade, first + at)] = nearest.triangle;
+  // Positive floats are ordered as their bits.
+  uint bits = floatBitsToUint(nearest.rank * cascade.texel.y);
+  if (nearest.triangle != FIELD_NONE) atomicMin(leastBits, bits);
+  barrier();
+  bool isLeast = nearest.triangle != FIELD_NONE && bits == leastBits;
+  if (isLeast) atomicMin(leastTexel, gl_LocalInvocationIndex);
+  barrier();
+  if (leastBits == 0x7f800000u ? gl_LocalInvocationIndex == 0u : leastTexel == gl_LocalInvocationIndex) {
+    tiles[tile.word].nearest = nearest.triangle;
+    tiles[tile.word].nearestBits = leastBits;
+    tiles[tile.word].nearestTexel = gl_LocalInvocationIndex;
+  }
+}

@@ -1,0 +1,27 @@
+// Coarse texels that the surface goes through, with the triangle nearest to the centre of one of their eight texels.
+#include "lib/field_keys.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
+layout(std430, binding = kFieldKeyBinding) readonly buffer KeyBlock { uint keys[]; };
+layout(std430, binding = kFieldSeedBinding) writeonly buffer SeedBlock { uint seeds[]; };
+
+uniform uint listLength;
+
+// No surface passes farther from all texel centres; half a sheet more is the rank of closed ones.
+const float TOUCHED_TEXELS = 0.8660255 + 0.5;
+
+void main() {
+  uint index = listIndex();
+  if (index >= listLength) return;
+  ListedTile tile = listedTile(listed[index]);
+  FieldCascade cascade = field.cascades[tile.cascade];
+  ivec3 coarse = tile.firstTexel / COARSE + ivec3(gl_LocalInvocationIndex & 3u, gl_LocalInvocationIndex >> 2 & 3u,
+                                                  gl_LocalInvocationIndex >> 4);
+  uint key = FIELD_NONE;
+  for (int i = 0; i < 8; ++i)
+    key = min(key, keys[texelWord(cascade, coarse * COARSE + ivec3(i & 1, i >> 1 & 1, i >> 2))]);
+  bool isTouched = key != FIELD_NONE && rankTexelsOfKey(key) <= TOUCHED_TEXELS;
+  seeds[coarseWord(cascade, coarse)] = isTouched ? triangleOfKey(key) : FIELD_NONE;
+}

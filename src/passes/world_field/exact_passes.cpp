@@ -1,0 +1,138 @@
+// Dispatches over the tile lists, one work group a tile.
+#include "passes/world_field/exact_passes.h"
+
+#include <algorithm>
+
+namespace brickfield {
+
+namespace {
+
+std::shared_ptr<Program> loadCompute(ShaderLibrary& shaders, const std::string& name) {
+  return shaders.load({name, {{GL_COMPUTE_SHADER, "passes/" + name + ".comp.glsl"}}, {}, {}});
+}
+
+// One work group an entry; what one dimension cannot hold goes to a second (lib/field_grid.glsl listIndex).
+void dispatchList(Program& program, std::uint32_t length) {
+  if (length == 0) return;
+  constexpr std::uint32_t kMostGroups = 32768; // of the 65535 that are promised
+  program.set("listLength", length);
+  program.use();
+  glDispatchCompute(std::min(length, kMostGroups), ceilDivide(length, kMostGroups), 1);
+}
+
+void betweenDispatches() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); }
+
+constexpr GLuint kPartGroups = 1024; // each takes parts until none is left
+
+} // namespace
+
+FieldSplatPass::FieldSplatPass(ShaderLibrary& shaders)
+    : clear_(loadCompute(shaders, "field_clear")),
+      splat_(loadCompute(shaders, "field_splat")),
+      parts_(loadCompute(shaders, "field_splat_parts")) {}
+
+PassDeclaration FieldSplatPass::declare() {
+  return {
+      "field_splat", {{Resource::WorldTriangles, Access::StorageRead}}, {{Resource::FieldKeys, Access::StorageWrite}}};
+}
+
+void FieldSplatPass::record(ExactField& field, const Buffer& triangles) {
+  if (field.lengthOf(ExactField::List::Keys) == 0) return;
+  field.bindParams();
+  field.bindKeys();
+  field.bindTiles();
+  field.bindList(ExactField::List::Keys);
+  dispatchList(*clear_, field.lengthOf(ExactField::List::Keys));
+  if (field.splatCount() == 0) return;
+  field.clearParts();
+  betweenDispatches();
+  triangles.bindStorage(shared::kWorldTriangleBinding);
+  field.bindParts();
+  field.bindSplats();
+  dispatchList(*splat_, field.splatCount());
+  betweenDispatches();
+  parts_->use();
+  glDispatchCompute(kPartGroups, 1, 1);
+}
+
+FieldCandidatesPass::FieldCandidatesPass(ShaderLibrary& shaders)
+    : seeds_(loadCompute(shaders, "field_seeds")),
+      sweep_(loadCompute(shaders, "field_sweep")),
+      candidates_(loadCompute(shaders, "field_candidates")) {}
+
+PassDeclaration FieldCandidatesPass::declare() {
+  return {"field_candidates",
+          {{Resource::WorldTriangles, Access::StorageRead}, {Resource::FieldKeys, Access::StorageRead}},
+          {{Resource::FieldCandidates, Access::StorageWrite}}};
+}
+
+void FieldCandidatesPass::sweep(const ExactField& field) {
+  constexpr std::array<ExactField::List, 3> kSweepLists = {ExactField::List::Rows, ExactField::List::Columns,
+                                                           ExactField::List::Depths};
+  for (int axis = 0; axis < 3; ++axis) {
+    const ExactField::List list = kSweepLists[static_cast<std::size_t>(axis)];
+    field.bindList(list);
+    sweep_->set("axis", axis);
+    dispatchList(*sweep_, field.lengthOf(list));
+    betweenDispatches();
+  }
+}
+
+void FieldCandidatesPass::record(const ExactField& field, const Buffer& triangles) {
+  if (field.lengthOf(ExactField::List::Candidates) == 0) return;
+  field.bindParams();
+  triangles.bindStorage(shared::kWorldTriangleBinding);
+  field.bindKeys();
+  field.bindSeeds();
+  field.bindSweeps();
+  field.bindCandidates();
+  field.bindTiles();
+  field.bindList(ExactField::List::Keys);
+  dispatchList(*seeds_, field.lengthOf(ExactField::List::Keys));
+  betweenDispatches();
+  sweep(field);
+  field.bindList(ExactField::List::Candidates);
+  dispatchList(*candidates_, field.lengthOf(ExactField::List::Candidates));
+}
+
+FieldResolvePass::FieldResolvePass(ShaderLibrary& shaders)
+    : evaluate_(loadCompute(shaders, "field_evaluate")),
+      resolve_(loadCompute(shaders, "field_resolve")),
+      objects_(loadCompute(shaders, "field_objects")) {}
+
+PassDeclaration FieldResolvePass::declare() {
+  return {"field_resolve",
+          {{Resource::WorldTriangles, Access::StorageRead},
+           {Resource::FieldKeys, Access::StorageRead},
+           {Resource::FieldCandidates, Access::StorageRead},
+           {Resource::SdfScene, Access::StorageRead}},
+          {{Resource::WorldField, Access::ImageStore}}};
+}
+
+void FieldResolvePass::record(const ExactField& field, const Buffer& triangles, const ResidentScene& scene) {
+  if (!field.hasWork()) return;
+  field.bindParams();
+  triangles.bindStorage(shared::kWorldTriangleBinding);
+  field.bindKeys();
+  field.bindIds();
+  field.bindCandidates();
+  field.bindTiles();
+  field.bindList(ExactField::List::Candidates);
+  dispatchList(*evaluate_, field.lengthOf(ExactField::List::Candidates));
+  field.bindNodes();
+  field.bindList(ExactField::List::Values);
+  for (std::size_t cascade = 0; cascade < field.windows().size(); ++cascade)
+    field.distances(cascade).bindImage(static_cast<GLuint>(cascade), 0, GL_READ_WRITE);
+  for (int stage = 0; stage < 3; ++stage) {
+    betweenDispatches();
+    resolve_->set("stage", stage);
+    dispatchList(*resolve_, field.lengthOf(ExactField::List::Values));
+  }
+  if (scene.sdfInstanceCount() == 0) return;
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  scene.atlas().bind();
+  scene.bindSdfInstances();
+  dispatchList(*objects_, field.lengthOf(ExactField::List::Values));
+}
+
+} // namespace brickfield

@@ -1,0 +1,121 @@
+// Boxes in, lists out.
+#include "passes/world_field/world_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace brickfield {
+
+namespace {
+
+// Cascades are anchored anew when the eye is this many sides of the coarsest window away.
+constexpr double kAnchorSides = 4;
+
+Box boxOf(const shared::SdfInstance& row, glm::dvec3 anchorWorld) {
+  Box box;
+  for (int corner = 0; corner < 8; ++corner) {
+    glm::dvec4 grid(1.0);
+    for (int axis = 0; axis < 3; ++axis) grid[axis] = corner >> axis & 1 ? row.boxMax[axis] : row.boxMin[axis];
+    glm::dvec3 world;
+    for (int axis = 0; axis < 3; ++axis) world[axis] = glm::dot(glm::dvec4(row.worldFromGrid[axis]), grid);
+    box.extend(glm::vec3(world - anchorWorld));
+  }
+  return box;
+}
+
+bool meets(const Box& a, const Box& b) {
+  return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
+}
+
+/// The box, metres from the anchor, of all tiles of one cascade in a list, and of the keys' reach around them.
+Box boundsOfTiles(const std::vector<std::uint32_t>& words, std::size_t cascade, const FieldWindow& window) {
+  const auto tileOfSlot = [&](std::uint32_t slot) {
+    const auto tiles = static_cast<std::uint32_t>(window.tiles());
+    const glm::ivec3 at(slot % tiles, slot / tiles % tiles, slot / (tiles * tiles));
+    const glm::ivec3 first = window.firstTexel >> 3;
+    return first + ((at - first) & (window.tiles() - 1));
+  };
+  Box box;
+  const auto begin = std::lower_bound(words.begin(), words.end(), static_cast<std::uint32_t>(cascade << 24));
+  const auto end = std::lower_bound(words.begin(), words.end(), static_cast<std::uint32_t>((cascade + 1) << 24));
+  for (auto word = begin; word != end; ++word) {
+    const glm::dvec3 texel(tileOfSlot(*word & 0xffffffu) * kFieldTileTexels);
+    box.extend({glm::vec3((texel - 2.0) * window.texelSize),
+                glm::vec3((texel + 2.0 + static_cast<double>(kFieldTileTexels)) * window.texelSize)});
+  }
+  return box;
+}
+
+} // namespace
+
+glm::dvec3 WorldField::anchorFor(const Box& boundsWorld, glm::dvec3 eyeWorld) {
+  if (boundsWorld_.isEmpty()) boundsWorld_ = boundsWorld;
+  if (shape_.isWhole) {
+    if (!isAnchored_ && !boundsWorld_.isEmpty())
+      anchorWorld_ = 0.5 * (glm::dvec3(boundsWorld_.min) + glm::dvec3(boundsWorld_.max));
+    isAnchored_ = true;
+    return anchorWorld_;
+  }
+  const Box anchored{glm::vec3(glm::dvec3(boundsWorld_.min) - anchorWorld_),
+                     glm::vec3(glm::dvec3(boundsWorld_.max) - anchorWorld_)};
+  const auto windows = fieldWindows(shape_, boundsWorld_.isEmpty() ? Box{} : anchored, eyeWorld - anchorWorld_);
+  const double side = windows.back().texelSize * windows.back().texels;
+  const glm::dvec3 away = glm::abs(eyeWorld - anchorWorld_) / side;
+  if (!isAnchored_ || std::max({away.x, away.y, away.z}) > kAnchorSides)
+    anchorWorld_ = glm::round(eyeWorld / side) * side;
+  isAnchored_ = true;
+  return anchorWorld_;
+}
+
+std::vector<Box> WorldField::changedObjects(const ResidentScene& scene) {
+  const std::vector<shared::SdfInstance>& now = scene.sdfInstances();
+  std::vector<Box> boxes;
+  const auto add = [&](const shared::SdfInstance& row) { boxes.push_back(boxOf(row, anchorWorld_)); };
+  for (std::size_t i = 0; i < std::max(now.size(), objects_.size()); ++i) {
+    const bool isHere = i < now.size(), wasHere = i < objects_.size();
+    if (isHere && wasHere && std::memcmp(&now[i], &objects_[i], sizeof now[i]) == 0) continue;
+    if (wasHere) add(objects_[i]);
+    if (isHere) add(now[i]);
+  }
+  objects_ = now;
+  return boxes;
+}
+
+std::vector<shared::FieldSplat> WorldField::splatsFor(const WorldTriangles& triangles, const FieldUpdate& update,
+                                                      const std::vector<FieldWindow>& windows) const {
+  std::vector<shared::FieldSplat> splats;
+  for (std::size_t cascade = 0; cascade < windows.size(); ++cascade) {
+    const Box dirty = boundsOfTiles(update.keys, cascade, windows[cascade]);
+    if (dirty.isEmpty()) continue;
+    for (const InstanceRange& range : triangles.instances()) {
+      if (range.boundsAnchored.isEmpty() || !meets(range.boundsAnchored, dirty)) continue;
+      for (std::uint32_t first = 0; first < range.count; first += shared::GATHER_TRIANGLES)
+        splats.push_back({range.firstTriangle + first, std::min(shared::GATHER_TRIANGLES, range.count - first),
+                          static_cast<std::uint32_t>(cascade), 0});
+    }
+  }
+  return splats;
+}
+
+void WorldField::update(const WorldTriangles& triangles, const ResidentScene& scene, bool isNew, glm::dvec3 eyeWorld) {
+  const Box anchored = boundsWorld_.isEmpty() ? Box{}
+                                              : Box{glm::vec3(glm::dvec3(boundsWorld_.min) - anchorWorld_),
+                                                    glm::vec3(glm::dvec3(boundsWorld_.max) - anchorWorld_)};
+  const std::vector<FieldWindow> windows = fieldWindows(shape_, anchored, eyeWorld - anchorWorld_);
+  if (exact_.fit(windows) || isNew) planner_.reset();
+  std::vector<Box> meshes;
+  for (const MovedInstance& moved : triangles.moved()) {
+    meshes.push_back(moved.boundsBefore);
+    meshes.push_back(moved.boundsNow);
+  }
+  FieldWork work;
+  work.tiles = planner_.plan(windows, meshes, changedObjects(scene));
+  work.splats = splatsFor(triangles, work.tiles, windows);
+  work.anchorWorld = anchorWorld_;
+  work.triangleCount = triangles.triangleCount();
+  work.sdfInstanceCount = scene.sdfInstanceCount();
+  exact_.prepare(windows, work);
+}
+
+} // namespace brickfield
