@@ -58,7 +58,6 @@ float meetTriangle(RayFrame ray, uint number) {
   precise float w = b.x * a.y - b.y * a.x;
   if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return -1.0;
   float area = u + v + w;
-  if (area == 0.0) return -1.0;
   float t = (u * a.z + v * b.z + w * c.z) / area;
   return isFiniteDistance(t) ? abs(t) : -1.0;
 }

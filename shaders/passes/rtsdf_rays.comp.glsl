@@ -106,7 +106,7 @@ void main() {
   float distance, vote = 0.0;
   if (bruteForce) { // section 2.1: the least distance and all votes, for ever
     RaySample rays = sampleRays(place, texel);
-    distance = isFirst ? rays.nearest : rays.nearest;
+    distance = isFirst ? rays.nearest : min(shortest[texel], rays.nearest);
     vote = isFirst ? rays.votes : votes[texel] + rays.votes;
   } else {
     float coarse = textureLod(coarseDistance, (vec3(place) + 0.5) / vec3(extent), 0.0).x;
