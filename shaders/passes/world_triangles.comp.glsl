@@ -1,5 +1,6 @@
 // Corners of the triangles of what moved, where they stand in anchored space. Welded corners come out with the same
 // bits, because the same vertices go through the same operations.
+#include "lib/finite.glsl"
 #include "shared/mesh_params.h"
 #include "shared/world_field_params.h"
 #include "shared/world_triangles_params.h"
@@ -13,9 +14,6 @@ layout(std430, binding = kGatherChunkBinding) readonly buffer ChunkBlock { Gathe
 layout(std430, binding = kGatherVertexBinding) readonly buffer VertexBlock { MeshVertex vertices[]; };
 
 uniform uint chunkCount;
-
-// By the bits: compilers take comparisons that only a NaN would fail for granted.
-bool isFinite(vec3 v) { return all(notEqual(floatBitsToUint(v) & 0x7f800000u, uvec3(0x7f800000u))); }
 
 void main() {
   uint number = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;

@@ -21,7 +21,7 @@ public:
 
   /// isUsed  for each mesh whether it gets rows
   /// error   Failure: more than 2^28 rows
-  /// cost    a few hundred ns a triangle
+  /// cost    half a microsecond a triangle
   TopologyTable(const Scene& scene, const MeshPool& pool, const std::vector<bool>& isUsed);
 
   const MeshRows& mesh(int index) const { return meshes_[static_cast<std::size_t>(index)]; }

@@ -180,7 +180,8 @@ bool WorldTriangles::setPose(const Scene& scene, const Pose& pose, glm::dvec3 an
                       std::span<const shared::WorldInstance>(rows_).subspan(first, count));
   }
   listChunks(scene);
-  return !isSameLayout;
+  isNew_ = isNew_ || !isSameLayout;
+  return isNew_;
 }
 
 void WorldTriangles::settle() {
@@ -189,6 +190,7 @@ void WorldTriangles::settle() {
   isMoved_.assign(placements_.size(), false);
   moved_.clear();
   triangleChunks_ = vertexChunks_ = 0;
+  isNew_ = false;
 }
 
 void WorldTriangles::bindTables() const {

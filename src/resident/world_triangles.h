@@ -40,8 +40,9 @@ public:
   /// Lays out and lists the work for a pose that the resident scene has been given before.
   ///
   /// anchorWorld metres. Skinned vertices are floats of the world: an anchor of floats loses nothing more of them.
-  /// returns     true: the layout (which instances are drawn) or the anchor changed, so everything is new and no row
-  ///             is what it was; the first pose too. False: rows are stable and only moved() changed.
+  /// returns     true: the layout (which instances are drawn) or the anchor changed since the last settled frame, so
+  ///             everything is new and no row is what it was; the first pose too. False: rows are stable and only
+  ///             moved() changed.
   /// error       Failure: more than kMostTriangles drawn
   /// cost        a comparison of each instance's matrices; the bounds of those that moved
   bool setPose(const Scene& scene, const Pose& pose, glm::dvec3 anchorWorld);
@@ -95,7 +96,7 @@ private:
   Box bounds_;
   glm::dvec3 anchorWorld_{0};
   std::uint32_t triangleCount_ = 0, triangleChunks_ = 0, vertexChunks_ = 0;
-  bool isLaidOut_ = false;
+  bool isLaidOut_ = false, isNew_ = false;
   Buffer triangles_, instances_, chunks_;
 };
 

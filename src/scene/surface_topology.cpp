@@ -113,24 +113,31 @@ struct EdgeUse {
   }
 };
 
-std::vector<EdgeUse> sortedEdges(const SurfaceTopology& topology) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * topology.triangleCount());
-  for (std::uint32_t t = 0; t < topology.triangleCount(); ++t) {
-    if (topology.isDegenerate[t]) continue;
-    for (std::uint8_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = topology.vertices[t][k], to = topology.vertices[t][(k + 1u) % 3u];
-      uses.push_back({std::uint64_t{std::min(from, to)} << 32 | std::max(from, to), t, k, from < to});
-    }
-  }
-  std::sort(uses.begin(), uses.end());
+std::vector<EdgeUse> sortedEdges(const SurfaceTopology& topology, std::size_t vertexCount) {
+  const auto forEachUse = [&](auto take) {
+    for (std::uint32_t t = 0; t < topology.triangleCount(); ++t)
+      for (std::uint8_t k = 0; k < 3 && !topology.isDegenerate[t]; ++k)
+        take(t, k, topology.vertices[t][k], topology.vertices[t][(k + 1u) % 3u]);
+  };
+  // By the lower vertex first, which is counting; what is left to sort are the few edges of one vertex.
+  std::vector<std::uint32_t> starts(vertexCount + 1, 0);
+  forEachUse(
+      [&](std::uint32_t, std::uint8_t, std::uint32_t from, std::uint32_t to) { ++starts[std::min(from, to) + 1]; });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<EdgeUse> uses(starts.back());
+  std::vector<std::uint32_t> next(starts.begin(), starts.end() - 1);
+  forEachUse([&](std::uint32_t t, std::uint8_t k, std::uint32_t from, std::uint32_t to) {
+    uses[next[std::min(from, to)]++] = {std::uint64_t{std::min(from, to)} << 32 | std::max(from, to), t, k, from < to};
+  });
+  for (std::size_t v = 0; v < vertexCount; ++v) std::sort(uses.begin() + starts[v], uses.begin() + starts[v + 1]);
   return uses;
 }
 
 /// Connects the triangles and the corners that edges connect; returns for each triangle whether all its edges are fine.
-std::vector<bool> walkEdges(SurfaceTopology& topology, UnionFind& components, UnionFind& corners) {
+std::vector<bool> walkEdges(SurfaceTopology& topology, std::size_t vertexCount, UnionFind& components,
+                            UnionFind& corners) {
   std::vector<bool> isFine(topology.triangleCount(), true);
-  const std::vector<EdgeUse> uses = sortedEdges(topology);
+  const std::vector<EdgeUse> uses = sortedEdges(topology, vertexCount);
   // The corner of a use at the edge's lower or higher end.
   const auto cornerAt = [](const EdgeUse& use, bool lower) {
     return 3u * use.triangle + (use.upwards == lower ? use.edge : (use.edge + 1u) % 3u);
@@ -213,7 +220,7 @@ SurfaceTopology analyseSurface(const Mesh& mesh) {
   const std::size_t count = topology.triangleCount();
   topology.neighbours.assign(count, {SurfaceTopology::kNone, SurfaceTopology::kNone, SurfaceTopology::kNone});
   UnionFind components(count), corners(3 * count);
-  const std::vector<bool> isFine = walkEdges(topology, components, corners);
+  const std::vector<bool> isFine = walkEdges(topology, keys.vertexCount(), components, corners);
 
   topology.componentOf.assign(count, SurfaceTopology::kNone);
   std::vector<Measure> measures;

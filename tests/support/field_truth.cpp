@@ -144,7 +144,10 @@ public:
   }
   /// A part that faces inwards encloses what lies around it.
   bool hasInside(glm::dvec3 point) const {
-    return winding_ && winding_->at(soup_.soupFromObject(point)) > (isInverted_ ? -0.5f : 0.5f);
+    if (!winding_) return false;
+    const glm::dvec3 pointSoup = soup_.soupFromObject(point);
+    if (glm::length(pointSoup) > soup_.reach) return isInverted_;
+    return winding_->at(pointSoup) > (isInverted_ ? -0.5f : 0.5f);
   }
   std::size_t triangleCount() const { return soup_.triangles.size(); }
 
