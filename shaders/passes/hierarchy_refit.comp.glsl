@@ -12,6 +12,7 @@ layout(std430, binding = kHierarchyTriangleBinding) readonly buffer TriangleBloc
 layout(std430, binding = kHierarchyRefitBinding) readonly buffer RefitBlock { RefitRow refitRows[]; };
 
 uniform uint firstRow;
+uniform uint rowCount;
 uniform bool takesLists; // a row stands for a list of rows
 
 // Larger than any place of a scene (1e11 metres), small enough to be subtracted.
@@ -56,7 +57,9 @@ void fitRow(uvec4 nodes) {
 }
 
 void main() {
-  uvec4 row = refitRows[firstRow + gl_WorkGroupID.x].nodes;
+  uint number = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  if (number >= rowCount) return; // all of the group
+  uvec4 row = refitRows[firstRow + number].nodes;
   if (!takesLists) {
     fitRow(row);
     return;

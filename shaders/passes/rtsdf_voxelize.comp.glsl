@@ -119,12 +119,13 @@ void voxelizeLarge(uint number) {
 }
 
 void main() {
+  // The first two stages come in rows of threads: a device may take no more than 65,535 groups along an axis.
+  uint number = gl_GlobalInvocationID.y * RTSDF_ROW_THREADS + gl_GlobalInvocationID.x;
   if (stage == RTSDF_CLEAR) {
-    uint texel = gl_GlobalInvocationID.x;
-    if (texel < uint(coarseSize * coarseSize * coarseSize)) seeds[texel] = RTSDF_NO_SEED;
-    if (texel == 0u) largeCount = 0u;
+    if (number < uint(coarseSize * coarseSize * coarseSize)) seeds[number] = RTSDF_NO_SEED;
+    if (number == 0u) largeCount = 0u;
   } else if (stage == RTSDF_VOXELIZE_SMALL) {
-    if (gl_GlobalInvocationID.x < triangleCount) voxelizeSmall(gl_GlobalInvocationID.x);
+    if (number < triangleCount) voxelizeSmall(number);
   } else {
     for (uint i = gl_WorkGroupID.x; i < largeCount; i += RTSDF_LARGE_GROUPS) voxelizeLarge(largeTriangles[i]);
   }

@@ -14,6 +14,8 @@ SHARED_CONST uint RTSDF_SEED_MASK = 1023;
 SHARED_CONST uint RTSDF_SMALL_VOXELS = 64;
 SHARED_CONST uint RTSDF_LARGE_GROUPS = 2048; // which take the large ones in turn
 
+SHARED_CONST uint RTSDF_ROW_THREADS = 262144;
+
 // What the one shader of the voxelization does.
 SHARED_CONST uint RTSDF_CLEAR = 0;
 SHARED_CONST uint RTSDF_VOXELIZE_SMALL = 1;

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "core/error.h"
+
 namespace brickfield {
 
 namespace {
@@ -18,10 +22,20 @@ RtsdfSettings checked(const RtsdfSettings& settings) {
   return settings;
 }
 
+/// Drivers cut longer bindings short in silence.
+void requireOneBinding(std::size_t bytes) {
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  if (bytes > static_cast<std::uint64_t>(most))
+    throw BadInput("rtsdf", "size",
+                   fmt::format("needs buffers of {} bytes, this driver's shaders reach {}", bytes, most));
+}
+
 } // namespace
 
 RtsdfField::RtsdfField(const RtsdfSettings& settings) : settings_(checked(settings)), extent_(rtsdfExtent(settings)) {
   const std::size_t words = texelCount(extent_) * sizeof(float);
+  requireOneBinding(words);
   shortest_ = Buffer("rtsdf_shortest", words, 0);
   votes_ = Buffer("rtsdf_votes", words, 0);
   volume_ = Texture::make3D("world_field_rtsdf", GL_R16F, extent_);
@@ -29,6 +43,7 @@ RtsdfField::RtsdfField(const RtsdfSettings& settings) : settings_(checked(settin
     glTextureParameteri(volume_.id(), wrap, GL_REPEAT);
   // The brute force has no coarse field; one texel keeps its programs' bindings whole.
   const glm::ivec3 coarseExtent(settings_.bruteForce ? 1 : settings_.coarseSize);
+  requireOneBinding(texelCount(coarseExtent) * sizeof(std::uint32_t));
   for (Buffer& half : seeds_) half = Buffer("rtsdf_seeds", texelCount(coarseExtent) * sizeof(std::uint32_t), 0);
   coarse_ = Texture::make3D("world_field_coarse", GL_R32F, coarseExtent);
   largeTriangles_ = Buffer("rtsdf_large_triangles", sizeof(std::uint32_t));

@@ -20,7 +20,8 @@ namespace brickfield {
 
 class RtsdfField {
 public:
-  /// error BadInput from checkRtsdfSettings; Failure: no memory for it
+  /// error BadInput from checkRtsdfSettings, or a size that the driver's shaders cannot reach; Failure: no memory for
+  /// it
   explicit RtsdfField(const RtsdfSettings& settings);
 
   /// Lays the window around the scene: centred, with two texels of margin or more on every side. A window that differs

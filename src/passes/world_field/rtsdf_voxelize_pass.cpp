@@ -5,6 +5,15 @@
 
 namespace brickfield {
 
+namespace {
+
+void dispatchRows(const Program& program, std::uint32_t threads) {
+  const std::uint32_t rows = ceilDivide(threads, shared::RTSDF_ROW_THREADS);
+  program.dispatchOver({static_cast<int>(std::min(threads, shared::RTSDF_ROW_THREADS)), static_cast<int>(rows), 1});
+}
+
+} // namespace
+
 RtsdfVoxelizePass::RtsdfVoxelizePass(ShaderLibrary& shaders)
     : program_(shaders.load({"rtsdf_voxelize", {{GL_COMPUTE_SHADER, "passes/rtsdf_voxelize.comp.glsl"}}, {}, {}})) {}
 
@@ -26,11 +35,11 @@ void RtsdfVoxelizePass::record(RtsdfField& field, const Buffer& triangles, std::
   program_->set("voxelsPerMetre",
                 static_cast<float>(size) / static_cast<float>(field.cascade().window.w) * field.cascade().texel.y);
   program_->set("stage", shared::RTSDF_CLEAR);
-  program_->dispatchOver({size * size * size, 1, 1});
+  dispatchRows(*program_, static_cast<std::uint32_t>(size * size * size));
   if (triangleCount == 0) return;
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   program_->set("stage", shared::RTSDF_VOXELIZE_SMALL);
-  program_->dispatchOver({static_cast<int>(triangleCount), 1, 1});
+  dispatchRows(*program_, triangleCount);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   program_->set("stage", shared::RTSDF_VOXELIZE_LARGE);
   glDispatchCompute(std::min(triangleCount, shared::RTSDF_LARGE_GROUPS), 1, 1);

@@ -93,6 +93,25 @@ TEST_F(RtsdfCoarse, VoxelsAreThoseThatTrianglesTouch) {
   EXPECT_GT(count, 1000u);
 }
 
+// More texels than one row of work groups takes.
+TEST_F(RtsdfCoarse, LargeGridIsClearedWhole) {
+  const std::vector<TriangleCorners> one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}};
+  RtsdfSettings settings;
+  settings.coarseSize = 256;
+  settings.fineSize = 8;
+  RtsdfStage stage(settings, gatherTriangles(one), std::vector{buildHierarchyTree(one)});
+  const std::uint32_t zero = 0;
+  glClearNamedBufferData(stage.field().seeds(0).id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+  stage.recordVoxels();
+  std::size_t seeds = 0;
+  for (const std::uint32_t word : stage.field().seeds(0).read<std::uint32_t>()) seeds += word != shared::RTSDF_NO_SEED;
+  // Half of a rectangle of 1 m by sqrt(2); a plane touches at least a voxel and less than four for each of its squares.
+  const double side = 256 / 8 * double{stage.field().cascade().texel.y};
+  const double squares = std::sqrt(0.5) * side * side;
+  EXPECT_GT(static_cast<double>(seeds), squares);
+  EXPECT_LT(static_cast<double>(seeds), 4 * squares);
+}
+
 // A seed that flooding misses makes a texel's distance too long, never too short.
 TEST_F(RtsdfCoarse, FloodingIsNeverShortAndSeldomLong) {
   MeshAlone torus(makeTorusMesh(0.6f, 0.22f, 48, 24));

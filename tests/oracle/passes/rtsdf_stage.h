@@ -34,9 +34,13 @@ public:
     refit_.record(hierarchy_, triangles_);
   }
 
-  void recordCoarse() {
+  void recordVoxels() {
     voxelize_.record(field_, triangles_, count_);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glMemoryBarrier(GL_ALL_BARRIER_BITS);
+  }
+
+  void recordCoarse() {
+    recordVoxels();
     flood_.record(field_);
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
   }
