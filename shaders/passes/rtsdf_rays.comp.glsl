@@ -5,7 +5,8 @@
 // What the paper leaves open, and what is chosen:
 // - How c is read at fine texels: by trilinear interpolation, which it names as the advantage of uniform grids.
 // - What the sign of r does in equation 1. A signed r would let the minimum prefer the deepest hit inside of things.
-//   So equation 1 is done with the unsigned r, as c is unsigned, and the sign is put on the result.
+//   So equation 1 is done with the unsigned r, as c is unsigned, and the sign is put on the result. Section 2.2 may as
+//   well be read as if beta alone made a sign: signByVote false.
 // - How many rays vote. A majority of one ray is noise on open surfaces; section 2.1 sums votes over frames. Here votes
 //   are summed over frames and fade by the same alpha as the distances, so what has moved away is forgotten alike.
 // - f of the frame before the first: c.
@@ -39,6 +40,7 @@ uniform float biasTexels;
 uniform float farthestTexels; // what stands for infinity in the field
 uniform bool isFirst;
 uniform bool bruteForce;
+uniform bool signByVote;
 
 // Jarzynski and Olano 2020, pcg4d: neighbouring counters give unrelated numbers.
 uvec4 hashOf(uvec4 v) {
@@ -120,7 +122,7 @@ void main() {
   }
   shortest[texel] = distance;
   votes[texel] = vote;
-  float signedDistance = vote < 0.0 ? -abs(distance) : distance;
+  float signedDistance = signByVote && vote < 0.0 ? -abs(distance) : distance;
   ivec3 slot = place + firstSlot;
   slot -= extent * ivec3(greaterThanEqual(slot, extent));
   imageStore(field, slot, vec4(clamp(signedDistance - biasTexels, -farthestTexels, farthestTexels)));

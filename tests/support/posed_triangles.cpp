@@ -29,7 +29,9 @@ PosedTriangles gatherTriangles(const Scene& scene, const Pose& pose) {
         return point;
       };
       for (std::size_t i = 0; i < primitive.indices.size(); i += 3) {
-        const glm::vec3 a = corner(i), b = corner(i + 1), c = corner(i + 2);
+        const glm::vec3 a = corner(i);
+        glm::vec3 b = corner(i + 1), c = corner(i + 2);
+        if (mirrorSign(instance.worldFromObject) < 0) std::swap(b, c); // still counter-clockwise from the front
         result.rows.push_back(makeRow(a, b, c));
       }
     }

@@ -81,6 +81,7 @@ void RtsdfField::reserveTriangles(std::uint32_t count) {
 
 std::vector<float> RtsdfField::readDistances() const {
   std::vector<float> distances = shortest_.read<float>();
+  if (!settings_.signByVote) return distances;
   const std::vector<float> votes = votes_.read<float>();
   for (std::size_t i = 0; i < distances.size(); ++i)
     if (votes[i] < 0) distances[i] = -std::abs(distances[i]);

@@ -62,6 +62,7 @@ void RtsdfRaysPass::dispatch(Program& program, RtsdfField& field, const Triangle
   program.set("farthestTexels", field.cascade().texel.z);
   program.set("isFirst", field.frame() == 0);
   program.set("bruteForce", settings.bruteForce);
+  program.set("signByVote", settings.signByVote);
   program.dispatchOver(field.extent());
   field.finishFrame();
 }

@@ -21,10 +21,15 @@ struct RtsdfSettings {
   float maskWidth = 0.1f;    ///< d, at least 0; infinity sends rays from every texel
   std::optional<float> beta; ///< subtracted from coarse distances, at least 0; nothing: see rtsdfBeta
   float bias = 0.01f;        ///< subtracted from the finished field, at least 0 (the paper's section 2.5.3)
+  bool signByVote = true;    ///< false: no sign but that of beta, hollow as the coarse field. Where rooms are single
+                             ///< walls that face outwards (modern_living_room) the vote takes all of a room for an
+                             ///< inside, and what stands in it is dark all around
   std::uint32_t seed = 1;    ///< of the directions
   bool bruteForce = false;   ///< section 2.1: rays from every texel of bruteExtent, the least distance and all votes
                              ///< kept over frames; no coarse field, no decay
   glm::ivec3 bruteExtent{400, 200, 400}; ///< texels, each 8 to 512
+
+  bool operator==(const RtsdfSettings&) const = default;
 };
 
 /// Table 2: "S" 64 and 128, "M" 128 and 256, "L" 256 and 512.

@@ -1,8 +1,11 @@
 // The fine field against a twin of equation 1 whose rays are Embree's, against the true distance, and against what is
 // known of the method: its convergence by rays alone and its two faults.
+#include <algorithm>
 #include <tuple>
 
+#include "core/error.h"
 #include "tests/oracle/passes/rtsdf_stage.h"
+#include "tests/support/data.h"
 #include "tests/support/embree_rays.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/hand_scenes.h"
@@ -220,6 +223,27 @@ TEST_F(Rtsdf, BruteForceConvergesToTheTruth) {
   EXPECT_EQ(last.wrongSigns, 0u);
 }
 
+// The tube is hollow again; outside of it nothing changes.
+TEST_F(Rtsdf, WithoutVoteNothingIsInside) {
+  MeshAlone torus(smallTorus());
+  RtsdfSettings settings = smallSettings();
+  settings.bias = 0;
+  RtsdfStage voted(settings, torus.posed, torus.trees);
+  settings.signByVote = false;
+  RtsdfStage hollow(settings, torus.posed, torus.trees);
+  std::size_t turned = 0;
+  for (RtsdfStage* stage : {&voted, &hollow}) stage->recordFrame();
+  const std::vector<float> votedDistances = voted.field().readDistances();
+  const std::vector<float> distances = hollow.field().readDistances(), volume = hollow.field().volume().readFloats();
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    EXPECT_EQ(std::abs(distances[i]), std::abs(votedDistances[i]));
+    EXPECT_GE(distances[i], -0.21f); // beta
+    turned += distances[i] != votedDistances[i];
+  }
+  EXPECT_GT(turned, 500u);
+  EXPECT_GE(*std::min_element(volume.begin(), volume.end()), -0.21f);
+}
+
 // Known fault: a coarse distance is too short by up to half a coarse voxel's diagonal and beta, and the minimum keeps
 // it.
 TEST_F(Rtsdf, CoarseDistancesThatAreTooShortStayHoweverManyRays) {
@@ -293,6 +317,15 @@ TEST_F(Rtsdf, NothingGhostsOutsideTheMask) {
     if (glm::distance(stage.centerAnchored(place), from) > 0.3f) return;
     EXPECT_NEAR(field[i], coarseAt(stage.field(), coarse, place), 1e-4);
   });
+}
+
+TEST_F(Rtsdf, SizeBeyondTheDriversReachIsRefused) {
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  if (most >= GLint64{512} * 512 * 512 * 4) return reportNotRun("this driver's shaders reach all sizes");
+  RtsdfSettings settings;
+  setRtsdfSize(settings, "L");
+  EXPECT_THROW(RtsdfField field(settings), BadInput);
 }
 
 // What is laid anew starts anew.
