@@ -59,6 +59,9 @@ void RtsdfField::place(const Box& boundsAnchored) {
   // texel that is missing above. A scene without extent gets one of a metre.
   if (!(texelSize > 0) || !std::isfinite(texelSize)) texelSize = 1.0f / static_cast<float>(extent_.x);
   const glm::vec3 center = boundsAnchored.isEmpty() ? glm::vec3(0) : boundsAnchored.center();
+  // Far from the anchor floats have no finer places, and lattice numbers must stay integers.
+  const glm::vec3 far = glm::abs(center);
+  texelSize = std::max(texelSize, std::max({far.x, far.y, far.z}) * 0x1p-22f);
   const glm::ivec3 first = glm::ivec3(glm::round(center / texelSize)) - extent_ / 2;
   const int longest = std::max({extent_.x, extent_.y, extent_.z});
   shared::FieldCascade cascade{};

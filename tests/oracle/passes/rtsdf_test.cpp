@@ -178,6 +178,14 @@ TEST_F(Rtsdf, VolumeHoldsTheBiasedFieldInItsSlots) {
   }
 }
 
+TEST_F(Rtsdf, WindowFarFromTheAnchorIsAsFineAsFloats) {
+  RtsdfField field(smallSettings());
+  field.place({{1e9f, -1e9f, 0}, {1e9f + 64, -1e9f + 64, 1}});
+  EXPECT_FLOAT_EQ(field.cascade().texel.x, std::ldexp(1e9f, -22));
+  EXPECT_NEAR(field.originAnchored().x, 1e9, 32 * 1e9 / (1 << 22));
+  EXPECT_NEAR(field.originAnchored().y, -1e9, 32 * 1e9 / (1 << 22));
+}
+
 // The window holds the box with its margin, and its texels are as small as that allows.
 TEST_F(Rtsdf, WindowCoversTheScene) {
   for (const Box& box : {Box{{-1.3f, -0.7f, -0.5f}, {0.9f, 1.1f, 0.8f}}, Box{{1e4f, 2, 3}, {1e4f + 1, 3, 4}},
