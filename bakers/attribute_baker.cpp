@@ -25,6 +25,7 @@ AttributeBaker::AttributeBaker(const BakeInput& input, const TriangleSoup& soup)
     const Material& material = materialOf(*input.scene, primitive);
     hasEmission_ |= material.emission != glm::vec3(0.0f);
     if (!isTextured(material) && primitive.colors.empty()) constants_[i] = sample(material, MaterialPoint{});
+    isUniform_ &= constants_[i].has_value() && constants_[i] == constants_[0];
   }
 }
 

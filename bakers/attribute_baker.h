@@ -15,6 +15,8 @@ struct PackedAttributes {
   std::uint32_t baseColor = 0; ///< as BrickLevel::baseColor
   std::uint32_t material = 0;
   std::uint32_t emission = 0;
+
+  bool operator==(const PackedAttributes&) const = default;
 };
 
 class AttributeBaker {
@@ -22,6 +24,8 @@ public:
   /// Both must outlive this.
   AttributeBaker(const BakeInput& input, const TriangleSoup& soup);
 
+  /// True if all points of all triangles have the same attributes.
+  bool isUniform() const { return isUniform_; }
   /// True if any material of the input can emit.
   bool hasEmission() const { return hasEmission_; }
 
@@ -42,6 +46,7 @@ private:
   const TriangleSoup* soup_;
   TextureSampler sampler_;
   std::vector<std::optional<PackedAttributes>> constants_; ///< a primitive: what it has everywhere
+  bool isUniform_ = true;
   bool hasEmission_ = false;
 };
 

@@ -15,7 +15,9 @@ namespace {
 
 constexpr std::size_t kSamples = kBrickSampleCount;
 constexpr float kAttributeVoxels =
-    2.0f; // trilinear reads reach sqrt(3) voxels from a hit; the rest is for hits off zero
+    2.0f;                           // trilinear reads reach sqrt(3) voxels from a hit; the rest is for hits off zero
+constexpr double kCoatVoxels = 1.0; // coats thicker than this have samples of their own
+constexpr double kCoatSlackVoxels = 1e-3; // layers nearer than this count as one
 
 /// Signed distances in voxels and the triangles that they come from, in the place of the solids' (or sheets') own
 /// arrays.
@@ -83,14 +85,38 @@ private:
     return static_cast<std::size_t>(std::min_element(begin, begin + kSamples, isNearer) - begin);
   }
   PackedAttributes at(std::size_t i) const {
-    const std::uint32_t triangle = samples_.triangles[begin_ + i];
+    std::uint32_t triangle = samples_.triangles[begin_ + i];
     const glm::dvec3 sample = request_.sampling.grid.sample(brick_, sampleOfIndex(i));
+    if (samples_.distances[begin_ + i] < 0 && !samples_.isSheet[begin_ + i] && !request_.attributes->isUniform())
+      triangle = coatOf(triangle, sample);
     const auto corners = request_.sampling.soup->corners(triangle);
     const PointOnTriangle on = closestPointOnTriangle(sample, corners);
     PackedAttributes packed = request_.attributes->at(triangle, on, request_.layout.voxelSizeObject);
     if (samples_.isSheet[begin_ + i] && request_.attributes->isSingleSided(triangle))
       coverFrontOnly(packed, glm::dot(sample - on.point, frontOf(corners)) + behindMiddle(triangle));
     return packed;
+  }
+  /// The triangle that is seen before the one closest to a sample inside: where a coat thinner than a voxel lies on
+  /// another solid (iron bands on a beam, a name plate), samples below both are closest to what the coat hides.
+  ///
+  ///   outside         probe: one voxel before the hidden triangle
+  ///   ==============  coat: closest to the probe, and the hidden triangle lies behind it
+  ///   --------------  closest to the sample
+  ///   inside          sample
+  std::uint32_t coatOf(std::uint32_t triangle, glm::dvec3 sample) const {
+    const TriangleSoup& soup = *request_.sampling.soup;
+    const double voxel = request_.sampling.grid.voxelSize, slack = kCoatSlackVoxels * voxel;
+    const auto corners = soup.corners(triangle);
+    const glm::dvec3 on = closestPointOnTriangle(sample, corners).point, front = frontOf(corners);
+    const double away = glm::length(on - sample);
+    glm::dvec3 outwards = away > slack ? (on - sample) / away : front;
+    if (glm::dot(outwards, front) < 0) outwards = -outwards; // the sample lies in the coat
+    const glm::dvec3 probe = on + kCoatVoxels * voxel * outwards;
+    const ClosestTriangle coat = request_.sampling.surfaces->solid->closest(probe, kCoatVoxels * voxel, triangle);
+    if (coat.triangle == kNoTriangle || coat.triangle == triangle) return triangle;
+    const glm::dvec3 coatFront = frontOf(soup.corners(coat.triangle));
+    const bool isHidden = glm::dot(on - coat.on.point, coatFront) < -slack;
+    return isHidden && glm::dot(probe - coat.on.point, coatFront) > 0 ? coat.triangle : triangle;
   }
   static glm::dvec3 frontOf(const std::array<glm::dvec3, 3>& corners) {
     return glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));

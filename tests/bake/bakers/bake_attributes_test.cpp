@@ -161,3 +161,21 @@ TEST(BakeAttributes, NoneWereAskedFor) {
     EXPECT_TRUE(level.material.empty());
   }
 }
+
+// Bands on a beam, plates on a plinth: what lies under less than a voxel of something else is not seen.
+TEST(BakeAttributes, ThinCoatHidesWhatItLiesOn) {
+  MeshCase scene; // a red box, and a green plate that reaches 0.4 voxels out of its top
+  scene.addBox(glm::vec3(-1), glm::vec3(1));
+  scene.material().baseColor = {1, 0, 0, 1};
+  const float voxel = 2.0f / 64;
+  MeshCase plate;
+  plate.addBox({-0.5f, 0.9f, -0.5f}, {0.5f, 1 + 0.4f * voxel, 0.5f});
+  scene.scene.meshes[0].primitives.push_back(plate.primitive());
+  scene.scene.meshes[0].primitives[1].material = 1;
+  scene.scene.materials.emplace_back().baseColor = {0, 1, 0, 1};
+  const BrickField field = bakeField(scene.input(), settingsOf(64)).field;
+  for (const float below : {-1.0f, 0.0f, 1.0f}) { // all samples that a hit on the plate reads
+    expectColor(attributesAt(field, 0, {0.1f, 1 - below * voxel, -0.2f}).baseColor, {0, 1, 0, 1});
+    expectColor(attributesAt(field, 0, {0.8f, 1 - below * voxel, -0.2f}).baseColor, {1, 0, 0, 1});
+  }
+}
