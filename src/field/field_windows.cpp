@@ -158,31 +158,52 @@ std::uint32_t fieldTileWord(std::size_t cascade, const FieldWindow& window, glm:
          static_cast<std::uint32_t>((slot.z * window.tiles() + slot.y) * window.tiles() + slot.x);
 }
 
-std::vector<FieldWindow> fieldWindows(const FieldShape& shape, const Box& boundsAnchored, glm::dvec3 eyeAnchored) {
-  const Box bounds = boundsAnchored.isEmpty() ? Box{glm::vec3(-0.5f), glm::vec3(0.5f)} : boundsAnchored;
+namespace {
+
+Box boundsOrMetre(const Box& bounds) {
+  const bool isUsable = !bounds.isEmpty() && isFinite(bounds.min) && isFinite(bounds.max);
+  return isUsable ? bounds : Box{glm::vec3(-0.5f), glm::vec3(0.5f)};
+}
+
+// Windows begin at tiles: up to half a tile is lost where the anchor is not the centre.
+constexpr int kRoundedMargin = kWindowMargin + kFieldTileTexels / 2;
+
+int marginOf(const FieldShape& shape, const Box& bounds) {
+  return shape.isWhole && glm::dvec3(bounds.min) == -glm::dvec3(bounds.max) ? kWindowMargin : kRoundedMargin;
+}
+
+/// The first texel of a window around a centre, at a tile.
+int firstTexelAround(double center, const FieldWindow& window) {
+  const double tile = window.texelSize * kFieldTileTexels;
+  return static_cast<int>(std::floor(center / tile + 0.5)) * kFieldTileTexels - window.texels / 2;
+}
+
+} // namespace
+
+double fieldTexelSize(const FieldShape& shape, const Box& boundsAnchored) {
+  if (shape.texelSize > 0) return shape.texelSize;
+  const Box bounds = boundsOrMetre(boundsAnchored);
   const glm::dvec3 extent = glm::dvec3(bounds.max) - glm::dvec3(bounds.min);
   double longest = std::max({extent.x, extent.y, extent.z});
   if (!(longest > 0)) longest = 1; // one point
+  const int cascades = shape.isWhole ? 1 : shape.cascades;
+  return longest / ((shape.texels - 2 * marginOf(shape, bounds)) * std::exp2(cascades - 1));
+}
+
+std::vector<FieldWindow> fieldWindows(const FieldShape& shape, const Box& boundsAnchored, glm::dvec3 eyeAnchored) {
+  const Box bounds = boundsOrMetre(boundsAnchored);
+  const glm::dvec3 least(bounds.min), most(bounds.max);
+  FieldWindow window{glm::ivec3(0), shape.texels, fieldTexelSize(shape, bounds), shape.isWhole};
   std::vector<FieldWindow> windows;
-  if (shape.isWhole) {
-    FieldWindow window{glm::ivec3(-shape.texels / 2), shape.texels, shape.texelSize, true};
-    const glm::dvec3 center = 0.5 * (glm::dvec3(bounds.min) + glm::dvec3(bounds.max));
-    // Windows begin at tiles: up to half a tile is lost where the anchor is not the centre.
-    const int margin = kWindowMargin + (center == glm::dvec3(0) ? 0 : kFieldTileTexels / 2);
-    if (!(window.texelSize > 0)) window.texelSize = longest / (shape.texels - 2 * margin);
-    for (int axis = 0; axis < 3; ++axis)
-      window.firstTexel[axis] +=
-          static_cast<int>(std::floor(center[axis] / (window.texelSize * kFieldTileTexels) + 0.5)) * kFieldTileTexels;
-    return {window};
-  }
-  double texelSize = shape.texelSize;
-  if (!(texelSize > 0)) texelSize = longest / (shape.texels * std::exp2(shape.cascades - 1));
-  for (int cascade = 0; cascade < shape.cascades; ++cascade, texelSize *= 2) {
-    FieldWindow window{glm::ivec3(0), shape.texels, texelSize, false};
-    for (int axis = 0; axis < 3; ++axis)
-      window.firstTexel[axis] =
-          static_cast<int>(std::floor(eyeAnchored[axis] / (texelSize * kFieldTileTexels))) * kFieldTileTexels -
-          shape.texels / 2;
+  for (int cascade = 0; cascade < (shape.isWhole ? 1 : shape.cascades); ++cascade, window.texelSize *= 2) {
+    // Centres whose windows end where the scene does; the other way round where it is smaller than the window.
+    const double reach = (0.5 * window.texels - kRoundedMargin) * window.texelSize;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double a = least[axis] + reach, b = most[axis] - reach;
+      const double center = shape.isWhole ? 0.5 * (least[axis] + most[axis])
+                                          : std::clamp(eyeAnchored[axis], std::min(a, b), std::max(a, b));
+      window.firstTexel[axis] = firstTexelAround(center, window);
+    }
     windows.push_back(window);
   }
   return windows;

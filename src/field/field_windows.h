@@ -32,15 +32,19 @@ struct FieldShape {
   int texels = 128;     ///< along a cascade's side
   double texelSize = 0; ///< metres, of the finest cascade; 0: so that the coarsest covers the scene
   bool isWhole = false; ///< one window around the whole scene instead of cascades around the eye
+
+  bool operator==(const FieldShape&) const = default;
 };
 
-/// The windows for an eye: each cascade's texels are twice as large as the one's before, its window centred on the tile
-/// that holds the eye; or the one window around `boundsAnchored` with a margin of two texels. A function of its
-/// arguments alone.
+/// The windows for an eye: each cascade's texels are twice as large as the one's before. A window is centred on the eye
+/// to half a tile, as far as it can be without looking past the scene: seen from outside, the scene and not the void is
+/// held. Or the one window around `boundsAnchored` with a margin of two texels. A function of its arguments alone.
 ///
-/// boundsAnchored  of the scene, metres from the anchor; empty counts as one metre
+/// boundsAnchored  of the scene, metres from the anchor; empty or not finite counts as one metre
 /// proved by tests/unit/field/field_windows_test.cpp
 std::vector<FieldWindow> fieldWindows(const FieldShape& shape, const Box& boundsAnchored, glm::dvec3 eyeAnchored);
+/// Metres of the finest texels of these windows: the shape's, or so that the coarsest window holds the bounds.
+double fieldTexelSize(const FieldShape& shape, const Box& boundsAnchored);
 
 /// Tiles to work on, as words of fieldTileWord, ascending. Each list is what one stage must write so that the next
 /// finds what it reads.

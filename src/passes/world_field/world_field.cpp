@@ -28,6 +28,11 @@ bool meets(const Box& a, const Box& b) {
   return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
 }
 
+bool holds(const Box& outer, const Box& inner) {
+  return !outer.isEmpty() && glm::all(glm::lessThanEqual(outer.min, inner.min)) &&
+         glm::all(glm::greaterThanEqual(outer.max, inner.max));
+}
+
 /// The box, metres from the anchor, of all tiles of one cascade in a list, and of the keys' reach around them.
 Box boundsOfTiles(const std::vector<std::uint32_t>& words, std::size_t cascade, const FieldWindow& window) {
   const auto tileOfSlot = [&](std::uint32_t slot) {
@@ -49,21 +54,38 @@ Box boundsOfTiles(const std::vector<std::uint32_t>& words, std::size_t cascade, 
 
 } // namespace
 
+Box WorldField::anchoredBounds() const {
+  if (boundsWorld_.isEmpty()) return {};
+  return {glm::vec3(glm::dvec3(boundsWorld_.min) - anchorWorld_),
+          glm::vec3(glm::dvec3(boundsWorld_.max) - anchorWorld_)};
+}
+
+FieldShape WorldField::sizedShape() const {
+  FieldShape shape = shape_;
+  shape.texelSize = texelSize_;
+  return shape;
+}
+
 glm::dvec3 WorldField::anchorFor(const Box& boundsWorld, glm::dvec3 eyeWorld) {
-  if (boundsWorld_.isEmpty()) boundsWorld_ = boundsWorld;
+  const bool isUsable = !boundsWorld.isEmpty() && isFinite(boundsWorld.min) && isFinite(boundsWorld.max);
   if (shape_.isWhole) {
-    if (!isAnchored_ && !boundsWorld_.isEmpty())
+    if (isUsable && !holds(boundsWorld_, boundsWorld)) {
+      boundsWorld_.extend(boundsWorld);
       anchorWorld_ = 0.5 * (glm::dvec3(boundsWorld_.min) + glm::dvec3(boundsWorld_.max));
-    isAnchored_ = true;
+    }
+    texelSize_ = fieldTexelSize(shape_, anchoredBounds());
     return anchorWorld_;
   }
-  const Box anchored{glm::vec3(glm::dvec3(boundsWorld_.min) - anchorWorld_),
-                     glm::vec3(glm::dvec3(boundsWorld_.max) - anchorWorld_)};
-  const auto windows = fieldWindows(shape_, boundsWorld_.isEmpty() ? Box{} : anchored, eyeWorld - anchorWorld_);
-  const double side = windows.back().texelSize * windows.back().texels;
-  const glm::dvec3 away = glm::abs(eyeWorld - anchorWorld_) / side;
-  if (!isAnchored_ || std::max({away.x, away.y, away.z}) > kAnchorSides)
-    anchorWorld_ = glm::round(eyeWorld / side) * side;
+  if (isUsable && (boundsWorld_.isEmpty() || texelSize_ == 0)) isAnchored_ = false, texelSize_ = 0;
+  if (isUsable) boundsWorld_ = boundsWorld;
+  if (texelSize_ == 0) texelSize_ = fieldTexelSize(shape_, anchoredBounds());
+  // Near what the windows hold, which may be far from an eye outside of the scene.
+  const glm::dvec3 focus = boundsWorld_.isEmpty()
+                               ? eyeWorld
+                               : glm::clamp(eyeWorld, glm::dvec3(boundsWorld_.min), glm::dvec3(boundsWorld_.max));
+  const double side = texelSize_ * std::exp2(shape_.cascades - 1) * shape_.texels;
+  const glm::dvec3 away = glm::abs(focus - anchorWorld_) / side;
+  if (!isAnchored_ || std::max({away.x, away.y, away.z}) > kAnchorSides) anchorWorld_ = glm::round(focus / side) * side;
   isAnchored_ = true;
   return anchorWorld_;
 }
@@ -99,10 +121,7 @@ std::vector<shared::FieldSplat> WorldField::splatsFor(const WorldTriangles& tria
 }
 
 void WorldField::update(const WorldTriangles& triangles, const ResidentScene& scene, bool isNew, glm::dvec3 eyeWorld) {
-  const Box anchored = boundsWorld_.isEmpty() ? Box{}
-                                              : Box{glm::vec3(glm::dvec3(boundsWorld_.min) - anchorWorld_),
-                                                    glm::vec3(glm::dvec3(boundsWorld_.max) - anchorWorld_)};
-  const std::vector<FieldWindow> windows = fieldWindows(shape_, anchored, eyeWorld - anchorWorld_);
+  const std::vector<FieldWindow> windows = fieldWindows(sizedShape(), anchoredBounds(), eyeWorld - anchorWorld_);
   if (exact_.fit(windows) || isNew) planner_.reset();
   std::vector<Box> meshes;
   for (const MovedInstance& moved : triangles.moved()) {

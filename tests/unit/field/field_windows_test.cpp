@@ -39,19 +39,37 @@ double gapTexels(const FieldWindow& window, glm::ivec3 tile, const Box& box) {
 
 TEST(FieldWindows, CascadesDoubleAndHoldTheEyeInTheirMiddle) {
   const Box bounds{glm::vec3(-10), glm::vec3(30, 5, 10)};
-  const glm::dvec3 eye(-3.7, 2.2, 11.9);
+  const glm::dvec3 eye(3.7, -2.2, 1.9);
   const auto windows = fieldWindows({4, 128, 0, false}, bounds, eye);
   ASSERT_EQ(windows.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
-    const FieldWindow& window = windows[i];
-    EXPECT_DOUBLE_EQ(window.texelSize, 40.0 / (128 * 8) * std::exp2(i)) << "the coarsest covers the scene's side";
-    EXPECT_EQ(window.firstTexel % kFieldTileTexels, glm::ivec3(0));
-    const glm::dvec3 eyeTexel = eye / window.texelSize - glm::dvec3(window.firstTexel);
-    for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_GE(eyeTexel[axis], 64);
-      EXPECT_LT(eyeTexel[axis], 64 + kFieldTileTexels);
-    }
+    EXPECT_DOUBLE_EQ(windows[i].texelSize, 40.0 / ((128 - 12) * 8) * std::exp2(i)) << "the coarsest covers the scene";
+    EXPECT_EQ(windows[i].firstTexel % kFieldTileTexels, glm::ivec3(0));
   }
+  const glm::dvec3 eyeTexel = eye / windows[0].texelSize - glm::dvec3(windows[0].firstTexel);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_GE(eyeTexel[axis], 64 - kFieldTileTexels / 2);
+    EXPECT_LE(eyeTexel[axis], 64 + kFieldTileTexels / 2);
+  }
+}
+
+// From wherever the eye looks, the coarsest window holds the scene and the finer ones stand in it, on the eye's side.
+TEST(FieldWindows, CascadesStayInTheSceneWhenTheEyeDoesNot) {
+  const Box bounds{glm::vec3(-10), glm::vec3(30, 5, 10)};
+  for (const glm::dvec3 eye : {glm::dvec3(100, 3, 0), glm::dvec3(-1e6, 1e6, 50), glm::dvec3(9, -40, 11)})
+    for (const int cascades : {1, 2, 4, 8}) {
+      const auto windows = fieldWindows({cascades, 64, 0, false}, bounds, eye);
+      const Box held = windows.back().boundsAnchored();
+      const auto margin = static_cast<float>(1.5 * windows.back().texelSize);
+      EXPECT_TRUE(held.contains(bounds.min - margin) && held.contains(bounds.max + margin)) << cascades;
+      const double tile = windows[0].texelSize * kFieldTileTexels;
+      const Box finest = windows[0].boundsAnchored();
+      for (int axis = 0; axis < 3 && cascades == 8; ++axis) {
+        const double nearest = std::clamp<double>(eye[axis], bounds.min[axis], bounds.max[axis]);
+        EXPECT_LT(finest.min[axis] - tile, nearest) << axis;
+        EXPECT_GT(finest.max[axis] + tile, nearest) << axis;
+      }
+    }
 }
 
 TEST(FieldWindows, OneWindowHoldsTheWholeSceneWithAMargin) {
