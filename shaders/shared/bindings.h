@@ -29,11 +29,12 @@ SHARED_CONST uint kWorldTriangleBinding = 1;
 SHARED_CONST uint kFieldKeyBinding = 2; // these three where no bricks are read
 SHARED_CONST uint kFieldSeedBinding = 3;
 SHARED_CONST uint kFieldSweepBinding = 4;
-SHARED_CONST uint kFieldIdBinding = 5;
+SHARED_CONST uint kFieldIdBinding = 4;
 SHARED_CONST uint kFieldCandidateBinding = 6;
-SHARED_CONST uint kFieldNodeBinding = 6;
+SHARED_CONST uint kFieldNodeBinding = 5;
 SHARED_CONST uint kFieldSplatBinding = 6;
 SHARED_CONST uint kFieldTileBinding = 7;
+SHARED_CONST uint kFieldShownListBinding = 0; // and the two after it: lists of tiles that a view shows
 
 // Texture units
 SHARED_CONST uint kDistanceR8Unit = 0;
@@ -54,6 +55,7 @@ SHARED_CONST uint kEnvironmentUnit = 7;
 SHARED_CONST uint kEnvironmentBrdfUnit = 8;
 SHARED_CONST uint kColorUnit = 9;
 SHARED_CONST uint kOverdrawUnit = 10;
+SHARED_CONST uint kWorldFieldUnit = 16; // of those that read the world field; a unit a cascade
 
 SHARED_END
 

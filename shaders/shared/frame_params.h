@@ -13,9 +13,10 @@ struct FrameParams {
   uvec4 size;         // x, y: pixels; z: lights; w: debug view (DEBUG_VIEW_*)
   uvec4 counts;       // x: SDF instances; y: forced SDF level + 1, or 0; z: trace steps allowed; w: environment mips
   vec4 debugRange;    // x, y: values shown as 0 and 1 by the debug views; z: 1 checks the depth promise
+  vec4 eyeAnchored;   // xyz: the eye, metres from the world field's anchor; 0 where no field was asked for
   vec4 irradiance[9]; // spherical harmonics, rgb
 };
-SHARED_ASSERT_SIZE(FrameParams, 128 + 5 * 16 + 9 * 16)
+SHARED_ASSERT_SIZE(FrameParams, 128 + 6 * 16 + 9 * 16)
 
 // A light that is on. Units as in KHR_lights_punctual.
 struct LightRow {
@@ -44,6 +45,10 @@ SHARED_CONST uint DEBUG_VIEW_KIND = 5;
 SHARED_CONST uint DEBUG_VIEW_STEPS = 6;
 SHARED_CONST uint DEBUG_VIEW_BRICKS = 7;
 SHARED_CONST uint DEBUG_VIEW_OVERDRAW = 8;
+SHARED_CONST uint DEBUG_VIEW_FIELD = 9; // this one and those behind it read the world field
+SHARED_CONST uint DEBUG_VIEW_FIELD_ID = 10;
+SHARED_CONST uint DEBUG_VIEW_FIELD_TILES = 11;
+SHARED_CONST uint DEBUG_VIEW_FIELD_SURFACE = 12;
 
 SHARED_END
 

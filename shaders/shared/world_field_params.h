@@ -66,6 +66,7 @@ SHARED_CONST uint FIELD_NONE = 0xffffffffu; // no triangle; no key
 // A texel's node: number + 1, 0 where nothing is in range; and whether it lies inside a closed mesh.
 SHARED_CONST uint FIELD_NODE_INSIDE = 0x80000000u;
 SHARED_CONST uint FIELD_NODE_MASK = 0x3fffffffu;
+SHARED_CONST uint FIELD_NODE_UNCERTAIN = 0xffffffffu; // to readers: the texels around a point name different ones
 
 // Up to GATHER_TRIANGLES triangles to leave their keys in one cascade.
 struct FieldSplat {

@@ -1,8 +1,6 @@
 // The flags of `render`; the outputs are checked before anything is read.
 #include "app/command_render.h"
 
-#include <algorithm>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -23,16 +21,15 @@ TraceChoice parseTrace(const std::string& flag, const std::string& text) {
 }
 
 void checkView(const std::string& view) {
-  if (view.empty()) return;
-  const std::vector<DebugView>& views = debugViews();
-  if (std::any_of(views.begin(), views.end(), [&](const DebugView& known) { return known.name == view; })) return;
+  if (view.empty() || findView(view)) return;
   throw BadInput("--view", fmt::format("\"{}\"", view), "is no view; \"brickfield list views\" names them");
 }
 
-int render(const RenderRequest& request) {
+int render(RenderRequest& request) {
   checkOutputs(outputsOf(request), {request.scene.path, request.light.environment});
   checkCamera(request.camera);
   checkView(request.view);
+  settleFieldChoice(request.field, request.view, request.scene.seed);
   checkInputPath(request.scene.path, {".gltf", ".glb"});
   runRender(request);
   return 0;
@@ -51,6 +48,7 @@ void addOptions(CLI::App& command, RenderRequest& request) {
   addValue(command, "--trace", "How SDF objects are found: auto or boxes", [&](auto& flag, auto& text) {
     request.trace = parseTrace(flag, text);
   })->type_name("PATH");
+  addFieldOptions(command, request.field);
   addRenderShadows(command, request.shadows);
   addName(command, "--view", "A debug view instead of the picture; see \"brickfield list views\"", request.view);
   addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", request.layers);

@@ -34,6 +34,30 @@ double medianOf(std::vector<double> values) {
 
 double leastOf(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
 
+Json fieldSettingsJson(const FieldSettings& field) {
+  Json json{{"method", fieldMethodName(field.method)}};
+  if (field.method == FieldMethod::Exact) {
+    json["cascades"] = field.shape.isWhole ? 1 : field.shape.cascades;
+    json["texels"] = field.shape.texels;
+    json["texel_metres"] = field.shape.texelSize > 0 ? Json(field.shape.texelSize) : Json("covers the scene");
+    json["whole_scene"] = field.shape.isWhole;
+  } else if (field.method == FieldMethod::Rtsdf) {
+    const RtsdfSettings& rtsdf = field.rtsdf;
+    const glm::ivec3 extent = rtsdfExtent(rtsdf);
+    json["texels"] = {extent.x, extent.y, extent.z};
+    json["brute_force"] = rtsdf.bruteForce;
+    json["rays"] = rtsdf.raysPerTexel;
+    if (!rtsdf.bruteForce) {
+      json["coarse_texels"] = rtsdf.coarseSize;
+      json["alpha"] = rtsdf.decay;
+      json["mask"] = std::isfinite(rtsdf.maskWidth) ? Json(rtsdf.maskWidth) : Json("inf");
+      json["beta"] = rtsdfBeta(rtsdf);
+    }
+    json["bias"] = rtsdf.bias;
+  }
+  return json;
+}
+
 // What was asked for, or what holds where nothing was.
 Json settingsJson(const RenderRun& run) {
   const RenderRequest& request = *run.request;
@@ -60,6 +84,7 @@ Json settingsJson(const RenderRun& run) {
   json["light"] = request.light.texts.empty() ? Json("scene") : Json(request.light.texts);
   json["environment"] = request.light.environment.empty() ? "sky" : request.light.environment.string();
   json["exposure"] = request.exposureEv;
+  json["world_field"] = fieldSettingsJson(request.field.settings);
   json["view"] = request.view.empty() ? "picture" : request.view;
   json["seed"] = request.scene.seed;
   json["threads"] = request.scene.threads;
@@ -146,6 +171,28 @@ Json countsJson(const FrameStats& stats) {
           {"out_of_steps", stats.counters.outOfSteps}};
 }
 
+// Of the last frame; tiles are those of the exact field.
+Json fieldJson(const FieldStats& field) {
+  Json json{{"made", field.method != FieldMethod::Off}};
+  if (field.method == FieldMethod::Off) return json;
+  json["cascades"] = field.cascades;
+  json["triangles"] = field.triangles;
+  json["moved_instances"] = field.movedInstances;
+  if (field.method == FieldMethod::Exact)
+    json["tiles"] = {{"all", field.tiles},
+                     {"keys", field.keyTiles},
+                     {"candidates", field.candidateTiles},
+                     {"values", field.valueTiles}};
+  const FieldStats::Bytes& bytes = field.bytes;
+  json["bytes"] = {{"all", bytes.triangles + bytes.hierarchy + bytes.distances + bytes.nodes + bytes.work},
+                   {"triangles", bytes.triangles},
+                   {"hierarchy", bytes.hierarchy},
+                   {"distances", bytes.distances},
+                   {"nodes", bytes.nodes},
+                   {"work", bytes.work}};
+  return json;
+}
+
 std::size_t peakHostBytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -182,6 +229,7 @@ nlohmann::ordered_json renderStatsJson(const RenderRun& run) {
       {"folder", cacheFolderOf(request)}, {"hits", run.fields->fields.size() - run.baked}, {"misses", run.baked}};
   json["milliseconds"] = timesJson(run);
   json["counts"] = countsJson(run.last);
+  json["world_field"] = fieldJson(run.frames.back().field);
   json["bytes"] = bytesJson(run.last.bytes);
   return json;
 }

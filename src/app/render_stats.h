@@ -11,6 +11,7 @@ namespace brickfield {
 struct FrameTime {
   double cpuMilliseconds = 0;   ///< posing, uploads and recording; on software rasterizers the drawing too
   std::vector<PassTime> passes; ///< at least one
+  FieldStats field{};
 };
 
 /// All that is known of a finished render; pointers must not be null.

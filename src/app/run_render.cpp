@@ -22,6 +22,8 @@ RendererSettings settingsOf(const RenderRequest& request) {
   RendererSettings settings;
   settings.exposureEv = request.exposureEv;
   settings.view = request.view;
+  settings.worldField = request.field.settings;
+  settings.fieldSlice = request.field.slice;
   return settings;
 }
 
@@ -70,7 +72,7 @@ std::vector<FrameTime> drawFrames(const RenderRequest& request, const Scene& sce
     renderer.render(makeView(scene, pose, request.camera));
     if (request.stats.empty()) continue;
     const double cpuMilliseconds = stopwatch.seconds() * 1e3;
-    times.push_back({cpuMilliseconds, renderer.passTimes()});
+    times.push_back({cpuMilliseconds, renderer.passTimes(), renderer.fieldStats()});
   }
   return times;
 }

@@ -10,6 +10,8 @@
 
 namespace brickfield {
 
+struct FieldFrame;
+
 /// Order in which objects are drawn. Both give the same picture to the last bit: reversed, later draws win ties.
 enum class DrawOrder : std::uint8_t { MeshesFirst, BoxesFirstAllReversed };
 
@@ -23,6 +25,7 @@ struct FrameContext {
   DrawOrder drawOrder = DrawOrder::MeshesFirst;
   bool countersOn = false;
   const WorldTriangles* worldTriangles = nullptr; ///< null: nobody asks for a world field
+  const FieldFrame* field = nullptr;              ///< the same
 };
 
 } // namespace brickfield

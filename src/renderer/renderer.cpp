@@ -2,10 +2,12 @@
 #include "renderer/renderer.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/error.h"
 #include "gpu/shader_library.h"
 #include "passes/debug/debug_view_pass.h"
+#include "passes/debug/field_view_pass.h"
 #include "passes/geometry/deform_pass.h"
 #include "passes/geometry/mesh_pass.h"
 #include "passes/geometry/sdf_box_pass.h"
@@ -13,12 +15,70 @@
 #include "passes/light/environment_pass.h"
 #include "passes/light/lighting_pass.h"
 #include "passes/post/tone_pass.h"
+#include "passes/world_field/exact_passes.h"
+#include "passes/world_field/hierarchy_refit_pass.h"
+#include "passes/world_field/rtsdf_jump_flood_pass.h"
+#include "passes/world_field/rtsdf_rays_pass.h"
+#include "passes/world_field/rtsdf_voxelize_pass.h"
+#include "passes/world_field/world_triangles_pass.h"
 #include "renderer/frame_plan.h"
 #include "renderer/frame_readback.h"
 #include "shared/bindings.h"
 #include "shared/sdf_params.h"
 
 namespace brickfield {
+
+namespace {
+
+void recordPass(WorldTrianglesPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(FieldSplatPass& pass, const FrameContext& frame) {
+  pass.record(*frame.field->exact, frame.worldTriangles->triangles());
+}
+void recordPass(FieldCandidatesPass& pass, const FrameContext& frame) {
+  pass.record(*frame.field->exact, frame.worldTriangles->triangles());
+}
+void recordPass(FieldResolvePass& pass, const FrameContext& frame) {
+  pass.record(*frame.field->exact, frame.worldTriangles->triangles(), frame.scene);
+}
+void recordPass(HierarchyRefitPass& pass, const FrameContext& frame) {
+  pass.record(*frame.field->hierarchy, frame.worldTriangles->triangles());
+}
+void recordPass(RtsdfVoxelizePass& pass, const FrameContext& frame) {
+  pass.record(*frame.field->rtsdf, frame.worldTriangles->triangles(), frame.worldTriangles->triangleCount());
+}
+void recordPass(RtsdfJumpFloodPass& pass, const FrameContext& frame) { pass.record(*frame.field->rtsdf); }
+void recordPass(RtsdfRaysPass& pass, const FrameContext& frame) {
+  pass.record(*frame.field->rtsdf, *frame.field->hierarchy, frame.worldTriangles->triangles());
+}
+void recordPass(FieldViewPass& pass, const FrameContext& frame) { pass.record(frame); }
+
+/// A pass whose shaders are compiled when a frame first has it.
+template <typename Pass>
+class LatePass {
+public:
+  static PassDeclaration declare() { return Pass::declare(); }
+  void make(ShaderLibrary& shaders) {
+    if (!pass_) pass_.emplace(shaders);
+  }
+  void record(const FrameContext& frame) { recordPass(*pass_, frame); }
+
+private:
+  std::optional<Pass> pass_;
+};
+
+template <typename Pass>
+constexpr bool isLate = requires(Pass pass, ShaderLibrary& shaders) {
+  pass.make(shaders);
+};
+
+/// What decides which passes a frame has.
+struct FrameShape {
+  bool boxesFirst = false;
+  bool hasExactField = false, hasRtsdfField = false;
+  bool showsPicture = false, showsDebugView = false, showsFieldView = false;
+};
+
+} // namespace
 
 struct Renderer::Parts {
   explicit Parts(const ContextInfo& info);
@@ -36,6 +96,15 @@ struct Renderer::Parts {
   LightingPass lighting;
   TonePass tone;
   DebugViewPass debugView;
+  LatePass<WorldTrianglesPass> worldTriangles;
+  LatePass<FieldSplatPass> fieldSplat;
+  LatePass<FieldCandidatesPass> fieldCandidates;
+  LatePass<FieldResolvePass> fieldResolve;
+  LatePass<HierarchyRefitPass> hierarchyRefit;
+  LatePass<RtsdfVoxelizePass> rtsdfVoxelize;
+  LatePass<RtsdfJumpFloodPass> rtsdfJumpFlood;
+  LatePass<RtsdfRaysPass> rtsdfRays;
+  LatePass<FieldViewPass> fieldView;
 
   RendererSettings settings;
   const Scene* source = nullptr;
@@ -44,16 +113,20 @@ struct Renderer::Parts {
   VisibleBoxes visible;
   Buffer frameParams, counters;
   std::array<glm::vec3, 9> irradiance{};
-  Box boundsWorld;
+  SceneFields fieldOfNode;            ///< without the fields: which nodes are SDF objects
+  std::unique_ptr<FieldKeeper> field; ///< null until a frame reads the world field
+  bool isFieldInFrame = false;
+  Pose pose;
   View view;
   bool isPosed = false, isLit = false;
 
   std::vector<PlannedPass> plan(const FrameContext& context);
   shared::FrameParams fillParams() const;
-  const DebugView* chosenView() const;
+  bool readsField() const;
+  const FieldFrame& prepareField();
 
   template <typename Take>
-  static void listPasses(bool boxesFirst, bool isDebugView, const Take& take);
+  static void listPasses(const FrameShape& shape, const Take& take);
 };
 
 namespace {
@@ -81,38 +154,63 @@ Renderer::Parts::Parts(const ContextInfo& info)
       frameParams("frame_params", sizeof(shared::FrameParams)),
       counters("counters", shared::COUNTERS * sizeof(std::uint32_t)) {}
 
-// Null: the lit picture.
-const DebugView* Renderer::Parts::chosenView() const {
-  for (const DebugView& candidate : debugViews())
-    if (candidate.name == settings.view) return &candidate;
-  return nullptr;
+bool Renderer::Parts::readsField() const {
+  if (settings.worldField.method == FieldMethod::Off) return false;
+  const DebugView* shown = findView(settings.view);
+  return settings.worldField.always || (shown && shown->readsField);
+}
+
+const FieldFrame& Renderer::Parts::prepareField() {
+  if (!field) field = std::make_unique<FieldKeeper>(*source, fieldOfNode, *scene, settings.worldField);
+  return field->prepare(pose, view, settings.fieldSlice);
 }
 
 // The frame on one screen; take is handed pointers to the members, so that names need no renderer.
 template <typename Take>
-void Renderer::Parts::listPasses(bool boxesFirst, bool isDebugView, const Take& take) {
+void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
   take(&Parts::deform); // moved vertices, before anything draws them
+  if (shape.hasExactField || shape.hasRtsdfField) take(&Parts::worldTriangles); // of the deformed vertices
+  if (shape.hasExactField) {
+    take(&Parts::fieldSplat);
+    take(&Parts::fieldCandidates);
+    take(&Parts::fieldResolve); // the field is whole before anything reads it
+  }
+  if (shape.hasRtsdfField) {
+    take(&Parts::hierarchyRefit);
+    take(&Parts::rtsdfVoxelize);
+    take(&Parts::rtsdfJumpFlood);
+    take(&Parts::rtsdfRays);
+  }
   take(&Parts::clear);
   take(&Parts::sdfCull); // which boxes, and how
-  if (boxesFirst) take(&Parts::sdfBox);
+  if (shape.boxesFirst) take(&Parts::sdfBox);
   take(&Parts::mesh);
-  if (!boxesFirst) {
+  if (!shape.boxesFirst) {
     take(&Parts::depthCopy); // ends the rays of SDF objects behind meshes
     take(&Parts::sdfBox);
   }
   take(&Parts::lighting); // also under a debug view: layers are whole whatever the picture shows
-  if (!isDebugView) {
-    take(&Parts::tone);
-  } else {
+  if (shape.showsPicture) take(&Parts::tone);
+  if (shape.showsDebugView) {
     take(&Parts::boxOverdraw);
     take(&Parts::debugView);
   }
+  if (shape.showsFieldView) take(&Parts::fieldView);
 }
 
 std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
+  const DebugView* shown = findView(settings.view);
+  const bool readsField = shown && shown->readsField;
+  const FrameShape shape{settings.drawOrder == DrawOrder::BoxesFirstAllReversed,
+                         context.field && context.field->exact,
+                         context.field && context.field->rtsdf,
+                         !shown,
+                         shown && !readsField,
+                         readsField};
   std::vector<PlannedPass> passes;
-  listPasses(settings.drawOrder == DrawOrder::BoxesFirstAllReversed, chosenView() != nullptr, [&](auto member) {
+  listPasses(shape, [&](auto member) {
     auto& pass = this->*member;
+    if constexpr (isLate<std::remove_reference_t<decltype(pass)>>) pass.make(shaders);
     passes.push_back({pass.declare(), [&pass, &context] { pass.record(context); }, 0});
   });
   planFrame(passes, providedByHost());
@@ -126,16 +224,17 @@ shared::FrameParams Renderer::Parts::fillParams() const {
   params.eyeWorld = glm::vec4(view.eyeWorld, view.nearDistance);
   params.projection = {view.clipFromView[0][0], view.clipFromView[1][1], view.orthographic ? 1.0f : 0.0f,
                        std::exp2(settings.exposureEv)};
-  const DebugView* shown = chosenView();
+  const DebugView* shown = findView(settings.view);
   params.size = {view.sizePixels, scene->lightCount(), shown ? shown->number : shared::DEBUG_VIEW_NONE};
   params.counts = {scene->sdfInstanceCount(), static_cast<std::uint32_t>(settings.forcedLevel + 1),
                    settings.maxTraceSteps, static_cast<std::uint32_t>(environment.radiance().levels())};
   if (shown) params.debugRange = {0, shown->redAt, 0, 0};
-  if (shown && shown->number == shared::DEBUG_VIEW_DEPTH && !boundsWorld.isEmpty()) {
-    const float radius = 0.5f * glm::length(boundsWorld.extent());
-    const float toCenter = glm::distance(view.eyeWorld, boundsWorld.center());
+  if (shown && shown->number == shared::DEBUG_VIEW_DEPTH && !pose.boundsWorld.isEmpty()) {
+    const float radius = 0.5f * glm::length(pose.boundsWorld.extent());
+    const float toCenter = glm::distance(view.eyeWorld, pose.boundsWorld.center());
     params.debugRange = {std::max(0.0f, toCenter - radius), toCenter + radius, 0, 0};
   }
+  if (isFieldInFrame) params.eyeAnchored = glm::vec4(glm::dvec3(view.eyeWorld) - field->anchorWorld(), 0);
   for (std::size_t i = 0; i < irradiance.size(); ++i) params.irradiance[i] = glm::vec4(irradiance[i], 0);
   return params;
 }
@@ -145,17 +244,20 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 
 void Renderer::setScene(const Scene& scene, const SceneFields& fields) {
+  parts_->field.reset();
+  parts_->isFieldInFrame = false;
   parts_->scene.reset();
   parts_->scene = std::make_unique<ResidentScene>(scene, fields);
   parts_->source = &scene;
+  parts_->fieldOfNode.fieldOfNode = fields.fieldOfNode;
   parts_->isPosed = parts_->isLit = false;
 }
 
-void Renderer::setPose(const Pose& pose) {
+void Renderer::setPose(Pose pose) {
   if (!parts_->scene) throw Failure("renderer: a pose was set before a scene");
   parts_->scene->setPose(*parts_->source, pose);
   parts_->visible.fit(std::max(1u, parts_->scene->sdfInstanceCount()));
-  parts_->boundsWorld = pose.boundsWorld;
+  parts_->pose = std::move(pose);
   parts_->isPosed = true;
 }
 
@@ -168,9 +270,11 @@ void Renderer::setLighting(const Lighting& lighting) {
 }
 
 void Renderer::setSettings(const RendererSettings& settings) {
-  if (!settings.view.empty() && std::none_of(debugViews().begin(), debugViews().end(),
-                                             [&](const DebugView& view) { return view.name == settings.view; }))
-    throw BadInput("view", settings.view, "no such view");
+  checkSettings(settings);
+  if (!(settings.worldField == parts_->settings.worldField)) {
+    parts_->field.reset();
+    parts_->isFieldInFrame = false;
+  }
   parts_->settings = settings;
 }
 
@@ -182,6 +286,8 @@ void Renderer::render(const View& view) {
     parts.targets = std::make_unique<FrameTargets>(view.sizePixels);
   }
   parts.view = view;
+  parts.isFieldInFrame = parts.readsField();
+  const FieldFrame* field = parts.isFieldInFrame ? &parts.prepareField() : nullptr;
   parts.frameParams.uploadValue(parts.fillParams());
   parts.frameParams.bindUniform(shared::kFrameUniformBinding);
   parts.counters.clear(0);
@@ -193,7 +299,9 @@ void Renderer::render(const View& view) {
                              parts.environment.radiance(),
                              parts.environment.brdf(),
                              parts.settings.drawOrder,
-                             parts.settings.countersOn};
+                             parts.settings.countersOn,
+                             field ? &parts.field->triangles() : nullptr,
+                             field};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDisable(GL_BLEND);
   glEnable(GL_FRAMEBUFFER_SRGB); // albedo is stored as sRGB; the other targets are linear and unaffected
@@ -204,6 +312,7 @@ void Renderer::render(const View& view) {
     if (pass.barriersBefore) glMemoryBarrier(pass.barriersBefore);
     pass.record();
   }
+  if (field) parts.field->settle();
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
@@ -228,18 +337,23 @@ FrameStats Renderer::stats() {
                  parts.scene->materials().bytes() + parts.environment.radiance().bytes() +
                      parts.environment.brdf().bytes(),
                  parts.scene->tableBytes(), parts.targets->bytes()};
+  stats.field = fieldStats();
   return stats;
 }
 
 std::vector<PassTime> Renderer::passTimes() { return parts_->timers.results(); }
 
+FieldStats Renderer::fieldStats() const { return parts_->isFieldInFrame ? parts_->field->stats() : FieldStats{}; }
+
+FieldVolumes Renderer::readWorldField() const {
+  if (!parts_->field) throw Failure("renderer: no frame has made a world field");
+  return parts_->field->read();
+}
+
 std::vector<std::string> framePassNames() {
   std::vector<std::string> names;
-  for (const bool isDebugView : {false, true})
-    Renderer::Parts::listPasses(false, isDebugView, [&]<typename Pass>(Pass Renderer::Parts::*) {
-      const std::string name = Pass::declare().name;
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    });
+  Renderer::Parts::listPasses({false, true, true, true, true, true},
+                              [&]<typename Pass>(Pass Renderer::Parts::*) { names.push_back(Pass::declare().name); });
   return names;
 }
 

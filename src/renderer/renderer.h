@@ -7,6 +7,7 @@
 
 #include "gpu/context.h"
 #include "gpu/timer.h"
+#include "renderer/field_keeper.h"
 #include "renderer/settings.h"
 #include "resident/resident_scene.h"
 #include "scene/frame_layers.h"
@@ -43,6 +44,7 @@ struct FrameStats {
   std::uint32_t meshDraws = 0;
   std::uint32_t bricks = 0;
   GpuBytes bytes;
+  FieldStats field;
 };
 
 /// Draws one scene on the context that is current when it is made; every call needs that context current. Several may
@@ -56,11 +58,14 @@ public:
 
   /// Uploads; frees what was there before. The scene must outlive the next setScene.
   void setScene(const Scene& scene, const SceneFields& fields);
-  void setPose(const Pose& pose);
+  void setPose(Pose pose);
   void setLighting(const Lighting& lighting);
+  /// Another kind or size of world field begins anew.
+  /// error BadInput from checkSettings
   void setSettings(const RendererSettings& settings);
 
-  /// Draws into own targets of the view's size.
+  /// Draws into own targets of the view's size. The world field is brought up to date where something of the frame
+  /// reads it, or the settings say always.
   /// error Failure: no scene, pose or lighting was set; picture larger than the device allows
   void render(const View& view);
 
@@ -72,6 +77,11 @@ public:
   FrameStats stats();
   /// Times of the last frame's passes alone; waits for the GPU.
   std::vector<PassTime> passTimes();
+  /// Of the last frame.
+  FieldStats fieldStats() const;
+  /// The world field of the last frame that made one; waits for the GPU.
+  /// error Failure: there was none
+  FieldVolumes readWorldField() const;
 
   /// Compiles changed shader files anew; a line for each program that changed.
   std::vector<std::string> reloadShaders();
@@ -82,8 +92,8 @@ private:
   std::unique_ptr<Parts> parts_;
 };
 
-/// Names of all passes that a frame may have, in the order of the frame plan: those of the lit picture, then those that
-/// only debug views add.
+/// Names of all passes that a frame may have, in the order of the frame plan: with both methods of the world field,
+/// though a frame has one at most, and the picture, the debug views and those of the field, of which it has one.
 /// proved by tests/render/frame_passes_test.cpp
 std::vector<std::string> framePassNames();
 

@@ -1,9 +1,56 @@
-// The views that there are.
+// The views that there are, and what goes together.
 #include "renderer/settings.h"
+
+#include <bit>
+#include <cmath>
 
 #include <fmt/format.h>
 
+#include "core/error.h"
+
 namespace brickfield {
+
+namespace {
+
+constexpr int kLeastFieldTexels = 16, kMostFieldTexels = 512;
+
+void checkShape(const FieldShape& shape) {
+  if (shape.cascades < 1 || shape.cascades > static_cast<int>(shared::MOST_CASCADES))
+    throw BadInput("world field", "cascades", fmt::format("{} is not in [1, 8]", shape.cascades));
+  if (shape.texels < kLeastFieldTexels || shape.texels > kMostFieldTexels ||
+      !std::has_single_bit(static_cast<unsigned>(shape.texels)))
+    throw BadInput(
+        "world field", "texels",
+        fmt::format("{} is no power of two from {} to {}", shape.texels, kLeastFieldTexels, kMostFieldTexels));
+  if (!(shape.texelSize >= 0) || !std::isfinite(shape.texelSize))
+    throw BadInput("world field", "texel size", fmt::format("{} is not in [0, inf)", shape.texelSize));
+}
+
+void checkFieldView(const DebugView& view, const RendererSettings& settings) {
+  const FieldSettings& field = settings.worldField;
+  if (field.method == FieldMethod::Off) throw BadInput("view", view.name, "shows the world field, which is off");
+  if (view.isExactOnly && field.method != FieldMethod::Exact)
+    throw BadInput("view", view.name, "is of the exact world field; rtsdf knows nothing of it");
+  const int cascades = field.method == FieldMethod::Exact && !field.shape.isWhole ? field.shape.cascades : 1;
+  if (settings.fieldSlice.cascade >= cascades)
+    throw BadInput("view", view.name,
+                   fmt::format("shows cascade {} of a world field that has {}, counted from 0",
+                               settings.fieldSlice.cascade, cascades));
+}
+
+} // namespace
+
+const char* fieldMethodName(FieldMethod method) {
+  switch (method) {
+  case FieldMethod::Off:
+    return "off";
+  case FieldMethod::Exact:
+    return "exact";
+  case FieldMethod::Rtsdf:
+    return "rtsdf";
+  }
+  return "unknown";
+}
 
 const std::vector<DebugView>& debugViews() {
   constexpr float kStepsRange = 64, kOverdrawRange = 16;
@@ -18,8 +65,32 @@ const std::vector<DebugView>& debugViews() {
       {"bricks", "a colour for each brick in which a ray ended", shared::DEBUG_VIEW_BRICKS},
       {"overdraw", fmt::format("box fragments of SDF objects at each pixel, blue 0 to red {}", kOverdrawRange),
        shared::DEBUG_VIEW_OVERDRAW, kOverdrawRange},
+      {"field", "a plane through the world field: blue outside, orange inside, black zero, a line every four texels",
+       shared::DEBUG_VIEW_FIELD, 0, true, true, false},
+      {"field-id", "the same plane: a colour for the nearest node, grey where neighbours differ",
+       shared::DEBUG_VIEW_FIELD_ID, 0, true, true, true},
+      {"field-tiles",
+       "the same plane: tiles of this frame, surfaces crimson, reached yellow, SDF objects green, kept grey",
+       shared::DEBUG_VIEW_FIELD_TILES, 0, true, true, true},
+      {"field-surface", "the world field's own surface from the camera, traced in it alone",
+       shared::DEBUG_VIEW_FIELD_SURFACE, 0, true, false, false},
   };
   return views;
+}
+
+const DebugView* findView(const std::string& name) {
+  for (const DebugView& view : debugViews())
+    if (view.name == name) return &view;
+  return nullptr;
+}
+
+void checkSettings(const RendererSettings& settings) {
+  checkShape(settings.worldField.shape);
+  checkRtsdfSettings(settings.worldField.rtsdf);
+  if (settings.view.empty()) return;
+  const DebugView* view = findView(settings.view);
+  if (!view) throw BadInput("view", settings.view, "no such view");
+  if (view->readsField) checkFieldView(*view, settings);
 }
 
 } // namespace brickfield

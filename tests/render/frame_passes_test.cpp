@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/error.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/hand_scenes.h"
 #include "tests/support/scene_frames.h"
@@ -27,9 +28,12 @@ TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
   const View view = scene.autoView({64, 36});
   const std::vector<std::string> listed = framePassNames();
   std::vector<std::string> seen;
-  for (const char* shown : {"", "steps"}) {
-    RendererSettings settings;
+  RendererSettings settings;
+  settings.worldField.shape = {1, 16, 0, false};
+  settings.worldField.rtsdf.coarseSize = settings.worldField.rtsdf.fineSize = 16;
+  for (const char* shown : {"", "steps", "field", "field-surface"}) {
     settings.view = shown;
+    settings.worldField.method = settings.view == "field" ? FieldMethod::Exact : FieldMethod::Rtsdf;
     renderer->setSettings(settings);
     renderer->render(view);
     const std::vector<std::string> names = namesOf(renderer->passTimes());
@@ -42,6 +46,71 @@ TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
   }
   for (const std::string& name : listed)
     EXPECT_NE(std::find(seen.begin(), seen.end(), name), seen.end()) << name << " is listed and never runs";
+}
+
+bool makesField(const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(), [](const std::string& name) {
+    return name == "world_triangles" || name.starts_with("field_") || name.starts_with("rtsdf_") ||
+           name == "hierarchy_refit";
+  });
+}
+
+TEST_F(FramePasses, NoFieldIsMadeThatNobodyReads) {
+  const TestScene scene(makeInterpenetration(), "Torus", 16);
+  const auto renderer = scene.makeRenderer(context().info());
+  RendererSettings settings;
+  settings.worldField.shape = {1, 16, 0, false};
+  EXPECT_EQ(settings.worldField.method, FieldMethod::Exact) << "the default";
+  for (const char* shown : {"", "steps"}) {
+    settings.view = shown;
+    renderer->setSettings(settings);
+    renderer->render(scene.autoView({32, 32}));
+    EXPECT_FALSE(makesField(namesOf(renderer->passTimes()))) << shown;
+    EXPECT_EQ(renderer->fieldStats().method, FieldMethod::Off);
+    EXPECT_THROW(renderer->readWorldField(), Failure);
+  }
+  settings.worldField.always = true;
+  renderer->setSettings(settings);
+  renderer->render(scene.autoView({32, 32}));
+  EXPECT_TRUE(makesField(namesOf(renderer->passTimes())));
+  settings.worldField.method = FieldMethod::Off;
+  renderer->setSettings(settings);
+  renderer->render(scene.autoView({32, 32}));
+  EXPECT_FALSE(makesField(namesOf(renderer->passTimes()))) << "off is off";
+}
+
+// The first frame makes all, one in which nothing moved none, and one in which the sphere moved what it reaches.
+TEST_F(FramePasses, FieldIsCountedAsItIsMade) {
+  const TestScene scene(makeInterpenetration(), "none");
+  const auto renderer = scene.makeRenderer(context().info());
+  RendererSettings settings;
+  settings.worldField.shape = {2, 64, 0.02, false};
+  settings.worldField.always = true;
+  renderer->setSettings(settings);
+  const View view = scene.autoView({32, 32});
+  renderer->render(view);
+  FieldStats stats = renderer->stats().field;
+  EXPECT_EQ(stats.tiles, 2u * 512u);
+  EXPECT_EQ(stats.keyTiles, stats.tiles);
+  EXPECT_EQ(stats.valueTiles, stats.tiles);
+  EXPECT_EQ(stats.movedInstances, 2u);
+  const std::size_t texels = 2u * 64u * 64u * 64u;
+  EXPECT_EQ(stats.bytes.distances, texels * 2);
+  EXPECT_EQ(stats.bytes.nodes, texels * 4);
+  EXPECT_GT(stats.bytes.work, texels * 4);
+  EXPECT_GE(stats.bytes.triangles, stats.triangles * std::size_t{64});
+  renderer->render(view);
+  stats = renderer->stats().field;
+  EXPECT_EQ(stats.valueTiles, 0u);
+  EXPECT_EQ(stats.movedInstances, 0u);
+  Pose pose = scene.pose();
+  pose.instances[1].worldFromObject[3].x += 0.1f;
+  renderer->setPose(pose);
+  renderer->render(view);
+  stats = renderer->stats().field;
+  EXPECT_EQ(stats.movedInstances, 1u);
+  EXPECT_GT(stats.keyTiles, 0u);
+  EXPECT_LT(stats.keyTiles, stats.tiles);
 }
 
 // What --view says of its colours is what the shader is told: red, no blue, from the named count on.

@@ -39,6 +39,7 @@ public:
 
   const std::vector<FieldWindow>& windows() const { return windows_; }
   bool hasWork() const { return lengthOf(List::Values) > 0; }
+  const Buffer& list(List list) const { return lists_[static_cast<std::size_t>(list)]; } ///< words, ascending
   std::uint32_t lengthOf(List list) const { return lengths_[static_cast<std::size_t>(list)]; }
   std::uint32_t splatCount() const { return splatCount_; }
 

@@ -43,6 +43,7 @@ const std::vector<ProgramSource>& programs() {
       compute("rtsdf_rays", "passes/rtsdf_rays.comp.glsl"),
       {"rtsdf_rays_counting", {{GL_COMPUTE_SHADER, "passes/rtsdf_rays.comp.glsl"}}, {{"COUNTERS_ON", "1"}}, {}},
       compute("debug_view", "debug/debug_view.comp.glsl"),
+      compute("field_view", "debug/field_view.comp.glsl"),
   };
   return table;
 }

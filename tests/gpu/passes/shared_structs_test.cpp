@@ -49,10 +49,10 @@ TEST_F(SharedStructs, FrameParamsAsUniformBlock) {
 layout(local_size_x = 1) in;
 layout(std430, binding = 0) writeonly buffer CopyBlock { FrameParams copy; };
 void main() { copy = frame; })");
-  const Offsets members{MEMBER(FrameParams, clipFromEye), MEMBER(FrameParams, worldFromView),
-                        MEMBER(FrameParams, eyeWorld),    MEMBER(FrameParams, projection),
-                        MEMBER(FrameParams, size),        MEMBER(FrameParams, counts),
-                        MEMBER(FrameParams, debugRange),  ARRAY(FrameParams, irradiance)};
+  const Offsets members{
+      MEMBER(FrameParams, clipFromEye), MEMBER(FrameParams, worldFromView), MEMBER(FrameParams, eyeWorld),
+      MEMBER(FrameParams, projection),  MEMBER(FrameParams, size),          MEMBER(FrameParams, counts),
+      MEMBER(FrameParams, debugRange),  MEMBER(FrameParams, eyeAnchored),   ARRAY(FrameParams, irradiance)};
   for (const bool storage : {false, true}) {
     const Program::BlockLayout layout = program->blockLayout(storage ? "CopyBlock" : "FrameBlock", storage);
     Offsets expected;
