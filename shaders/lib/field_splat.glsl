@@ -18,9 +18,9 @@ SplatTriangle splatTriangle(FieldCascade cascade, uint number) {
                        isClosed ? cascade.texel.w : 0.0);
 }
 
-// Texels whose centres may be within reach; upper is included.
-void splatBounds(FieldCascade cascade, SplatTriangle t, out ivec3 lower, out ivec3 upper) {
-  ivec3 first = cascade.window.xyz, last = first + cascade.window.w - 1;
+// Texels whose centres may be within reach, of those that are made anew; upper is included.
+void splatBounds(uint cascadeIndex, SplatTriangle t, out ivec3 lower, out ivec3 upper) {
+  ivec3 first = field.splatMin[cascadeIndex].xyz, last = field.splatMax[cascadeIndex].xyz;
   vec3 low = min(t.a, min(t.b, t.c)) - (SPLAT_TEXELS + 0.5), high = max(t.a, max(t.b, t.c)) + (SPLAT_TEXELS - 0.5);
   // Clamped as floats first: what lies far away is no number that an int holds.
   lower = max(ivec3(clamp(ceil(low), vec3(first - 1), vec3(last + 1))), first);
@@ -32,6 +32,7 @@ void splatTexel(FieldCascade cascade, SplatTriangle t, ivec3 lattice) {
   if (squared > SPLAT_TEXELS * SPLAT_TEXELS) return;
   uint slot = tileSlot(cascade, lattice >> 3);
   if (tiles[cascade.buffers.z + slot].update != field.counts.w) return; // it is as it was
-  atomicMin(keys[cascade.buffers.x + slot * FIELD_TILE_TEXELS + indexInTile(lattice, int(FIELD_TILE))],
-            keyOf(sqrt(squared) + t.extra, t.number));
+  uint word = cascade.buffers.x + slot * FIELD_TILE_TEXELS + indexInTile(lattice, int(FIELD_TILE));
+  uint key = keyOf(sqrt(squared) + t.extra, t.number);
+  if (key < keys[word]) atomicMin(keys[word], key); // an old value can only be larger: most are spared the atomic
 }

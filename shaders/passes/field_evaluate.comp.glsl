@@ -1,5 +1,5 @@
-// First round at full resolution: each texel's nearest of the eight coarse candidates around it, in the band of the 27
-// keys around it as well.
+// First round at full resolution, in the band: each texel's nearest of the 27 keys around it, where there are none of
+// the eight coarse candidates.
 #include "lib/field_band.glsl"
 #include "lib/field_keys.glsl"
 
@@ -25,17 +25,16 @@ void main() {
   if (index >= listLength) return;
   ListedTile tile = listedTile(listed[index]);
   FieldCascade cascade = field.cascades[tile.cascade];
-  bool isBand = isBandTile(tiles[tile.word]);
+  if (!isBandTile(tiles[tile.word])) return;
   int thread = int(gl_LocalInvocationIndex);
   for (int i = thread; i < COARSE_APRON * COARSE_APRON * COARSE_APRON; i += 128) {
     ivec3 coarse = tile.firstTexel / COARSE - 1 + cubeIndex(i, COARSE_APRON);
     coarseIds[i] = isInWindow(cascade, coarse * COARSE) ? candidates[coarseWord(cascade, coarse)] : FIELD_NONE;
   }
-  if (isBand)
-    for (int i = thread; i < KEY_APRON * KEY_APRON * KEY_APRON; i += 128) {
-      ivec3 lattice = tile.firstTexel - 1 + cubeIndex(i, KEY_APRON);
-      keyIds[i] = isInWindow(cascade, lattice) ? triangleOfKey(keys[texelWord(cascade, lattice)]) : FIELD_NONE;
-    }
+  for (int i = thread; i < KEY_APRON * KEY_APRON * KEY_APRON; i += 128) {
+    ivec3 lattice = tile.firstTexel - 1 + cubeIndex(i, KEY_APRON);
+    keyIds[i] = isInWindow(cascade, lattice) ? triangleOfKey(keys[texelWord(cascade, lattice)]) : FIELD_NONE;
+  }
   barrier();
   float sheetHalf = cascade.texel.w * cascade.texel.x;
   for (int i = thread; i < int(FIELD_TILE_TEXELS); i += 128) {
@@ -43,15 +42,16 @@ void main() {
     vec3 point = texelCenter(cascade, tile.firstTexel + at);
     Nearest nearest = Nearest(FIELD_NONE, 1e30);
     ivec3 coarse = (at + 1) >> 1; // the lowest of the eight, in the apron
-    for (int corner = 0; corner < 8; ++corner) {
+    consider(keyIds[((at.z + 1) * KEY_APRON + at.y + 1) * KEY_APRON + at.x + 1], point, sheetHalf, nearest);
+    for (int n = 0; n < 27; ++n) {
+      ivec3 k = at + ivec3(n % 3, n / 3 % 3, n / 9);
+      consider(keyIds[(k.z * KEY_APRON + k.y) * KEY_APRON + k.x], point, sheetHalf, nearest);
+    }
+    bool isNear = nearest.triangle != FIELD_NONE; // keys say enough
+    for (int corner = 0; corner < 8 && !isNear; ++corner) {
       ivec3 c = coarse + ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
       consider(coarseIds[(c.z * COARSE_APRON + c.y) * COARSE_APRON + c.x], point, sheetHalf, nearest);
     }
-    if (isBand)
-      for (int n = 0; n < 27; ++n) {
-        ivec3 k = at + ivec3(n % 3, n / 3 % 3, n / 9);
-        consider(keyIds[(k.z * KEY_APRON + k.y) * KEY_APRON + k.x], point, sheetHalf, nearest);
-      }
     ids[tile.word * FIELD_TILE_TEXELS + uint(i)] = nearest.triangle;
   }
 }

@@ -50,7 +50,7 @@ void main() {
   if ((triangles[number].codes.w & WORLD_TRIANGLE_EMPTY) != 0u) return;
   SplatTriangle t = splatTriangle(cascade, number);
   ivec3 lower, upper;
-  splatBounds(cascade, t, lower, upper);
+  splatBounds(cascadeIndex, t, lower, upper);
   if (any(greaterThan(lower, upper))) return;
   ivec3 extent = upper - lower + 1;
   if (extent.x > MOST_TEXELS_OF_ONE_THREAD || extent.x * extent.y > MOST_TEXELS_OF_ONE_THREAD ||

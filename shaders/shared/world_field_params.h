@@ -48,10 +48,12 @@ SHARED_CONST uint FIELD_WHOLE = 1; // nothing lies outside the window
 
 struct FieldParams {
   FieldCascade cascades[MOST_CASCADES];
+  ivec4 splatMin[MOST_CASCADES]; // lattice of a box, both ends included, that holds all tiles whose keys are made anew
+  ivec4 splatMax[MOST_CASCADES];
   uvec4 counts; // x: cascades; y: bits of a triangle's number in a key; z: SDF instances; w: number of the update
   vec4 anchor;  // world
 };
-SHARED_ASSERT_SIZE(FieldParams, 48 * 8 + 32)
+SHARED_ASSERT_SIZE(FieldParams, 80 * 8 + 32)
 
 // What is kept of a tile.
 struct FieldTile {
@@ -65,7 +67,7 @@ SHARED_ASSERT_SIZE(FieldTile, 16)
 SHARED_CONST uint FIELD_NONE = 0xffffffffu; // no triangle; no key
 // A texel's node: number + 1, 0 where nothing is in range; and whether it lies inside a closed mesh.
 SHARED_CONST uint FIELD_NODE_INSIDE = 0x80000000u;
-SHARED_CONST uint FIELD_NODE_MASK = 0x3fffffffu;
+SHARED_CONST uint FIELD_NODE_MASK = 0x1fffffffu;
 SHARED_CONST uint FIELD_NODE_UNCERTAIN = 0xffffffffu; // to readers: the texels around a point name different ones
 
 // Up to GATHER_TRIANGLES triangles to leave their keys in one cascade.

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "app/command_bake.h"
+#include "app/command_bench.h"
 #include "app/command_compare.h"
 #include "app/command_inspect.h"
 #include "app/command_list.h"
@@ -28,6 +29,7 @@ void addCommands(CLI::App& program, CommandAction& chosen) {
   addRenderCommand(program, chosen);
   addListCommand(program, chosen);
   addInspectCommand(program, chosen);
+  addBenchCommand(program, chosen);
 #ifdef BRICKFIELD_BAKERS
   addBakeCommand(program, chosen);
   addReferenceCommand(program, chosen);

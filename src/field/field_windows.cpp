@@ -190,6 +190,13 @@ double fieldTexelSize(const FieldShape& shape, const Box& boundsAnchored) {
   return longest / ((shape.texels - 2 * marginOf(shape, bounds)) * std::exp2(cascades - 1));
 }
 
+glm::ivec3 fieldTileLattice(const FieldWindow& window, std::uint32_t slot) {
+  const auto tiles = static_cast<std::uint32_t>(window.tiles());
+  const glm::ivec3 at(slot % tiles, slot / tiles % tiles, slot / (tiles * tiles));
+  const glm::ivec3 first = tileOf(window.firstTexel);
+  return first + ((at - first) & (window.tiles() - 1));
+}
+
 std::vector<FieldWindow> fieldWindows(const FieldShape& shape, const Box& boundsAnchored, glm::dvec3 eyeAnchored) {
   const Box bounds = boundsOrMetre(boundsAnchored);
   const glm::dvec3 least(bounds.min), most(bounds.max);

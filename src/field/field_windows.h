@@ -62,6 +62,9 @@ struct FieldUpdate {
 /// cascade << 24 | slot of the tile: where it lies in memory, x fastest.
 std::uint32_t fieldTileWord(std::size_t cascade, const FieldWindow& window, glm::ivec3 tileLattice);
 
+/// The tile that lies in a slot: the way back.
+glm::ivec3 fieldTileLattice(const FieldWindow& window, std::uint32_t slot);
+
 /// Plans updates from frame to frame.
 class FieldUpdatePlanner {
 public:

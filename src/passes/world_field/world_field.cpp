@@ -35,17 +35,11 @@ bool holds(const Box& outer, const Box& inner) {
 
 /// The box, metres from the anchor, of all tiles of one cascade in a list, and of the keys' reach around them.
 Box boundsOfTiles(const std::vector<std::uint32_t>& words, std::size_t cascade, const FieldWindow& window) {
-  const auto tileOfSlot = [&](std::uint32_t slot) {
-    const auto tiles = static_cast<std::uint32_t>(window.tiles());
-    const glm::ivec3 at(slot % tiles, slot / tiles % tiles, slot / (tiles * tiles));
-    const glm::ivec3 first = window.firstTexel >> 3;
-    return first + ((at - first) & (window.tiles() - 1));
-  };
   Box box;
   const auto begin = std::lower_bound(words.begin(), words.end(), static_cast<std::uint32_t>(cascade << 24));
   const auto end = std::lower_bound(words.begin(), words.end(), static_cast<std::uint32_t>((cascade + 1) << 24));
   for (auto word = begin; word != end; ++word) {
-    const glm::dvec3 texel(tileOfSlot(*word & 0xffffffu) * kFieldTileTexels);
+    const glm::dvec3 texel(fieldTileLattice(window, *word & 0xffffffu) * kFieldTileTexels);
     box.extend({glm::vec3((texel - 2.0) * window.texelSize),
                 glm::vec3((texel + 2.0 + static_cast<double>(kFieldTileTexels)) * window.texelSize)});
   }

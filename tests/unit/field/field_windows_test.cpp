@@ -185,7 +185,10 @@ TEST(FieldUpdate, ScrollMakesWhatEnteredAnew) {
 TEST(FieldUpdate, TileWordsNameEachSlotOnce) {
   const FieldWindow window = windowAt({-40, 8, 1048576}, 64);
   std::vector<std::uint32_t> words;
-  forEachTile(window, [&](glm::ivec3 tile) { words.push_back(fieldTileWord(3, window, tile)); });
+  forEachTile(window, [&](glm::ivec3 tile) {
+    words.push_back(fieldTileWord(3, window, tile));
+    EXPECT_EQ(fieldTileLattice(window, words.back() & 0xffffffu), tile);
+  });
   std::sort(words.begin(), words.end());
   EXPECT_EQ(words.front(), 3u << 24);
   EXPECT_EQ(words.back(), (3u << 24) + 511u);
