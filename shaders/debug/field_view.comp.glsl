@@ -99,17 +99,19 @@ vec3 surfaceColor(ivec2 pixel) {
   vec3 windowExtent = fieldExtent(int(field.counts.x) - 1) * coarsest.texel.x;
   float farthest = distance(origin, vec3(coarsest.window.xyz) * coarsest.texel.x + 0.5 * windowExtent) + length(windowExtent);
   float t = rayParameterOfNear(direction);
+  bool isOutside = false; // an eye inside looks out first
   for (int i = 0; i < MOST_STEPS && t < farthest; ++i) {
     vec3 point = origin + t * direction;
     FieldReading reading = readWorldField(point);
     float texel = field.cascades[reading.cascade < 0 ? int(field.counts.x) - 1 : reading.cascade].texel.x;
-    if (reading.cascade >= 0 && reading.distanceWorld < HIT_TEXELS * texel) {
+    isOutside = isOutside || reading.distanceWorld > HIT_TEXELS * texel;
+    if (isOutside && reading.cascade >= 0 && reading.distanceWorld < HIT_TEXELS * texel) {
       vec3 normal = fieldGradient(point);
       normal /= max(length(normal), 1e-6);
       float facing = max(dot(normal, -direction), 0.0), sky = 0.5 + 0.5 * normal.y;
       return vec3(0.12, 0.13, 0.15) + vec3(0.55, 0.53, 0.5) * facing + vec3(0.2, 0.25, 0.3) * sky;
     }
-    t += max(reading.distanceWorld, LEAST_STEP_TEXELS * texel);
+    t += max(abs(reading.distanceWorld), LEAST_STEP_TEXELS * texel);
   }
   return vec3(0.08, 0.1, 0.16);
 }

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/field_error_view.h"
 #include "app/image_io.h"
 #include "app/options.h"
 #include "app/session.h"
@@ -17,7 +18,9 @@ namespace brickfield {
 namespace {
 
 int printViews() {
-  for (const DebugView& view : debugViews()) fmt::print("{:<24} {}\n", view.name, view.meaning);
+  const auto print = [](const DebugView& view) { fmt::print("{:<24} {}\n", view.name, view.meaning); };
+  for (const DebugView& view : debugViews()) print(view);
+  if (const DebugView* error = fieldErrorView()) print(*error);
   return 0;
 }
 

@@ -21,7 +21,7 @@ TraceChoice parseTrace(const std::string& flag, const std::string& text) {
 }
 
 void checkView(const std::string& view) {
-  if (view.empty() || findView(view)) return;
+  if (view.empty() || findAnyView(view)) return;
   throw BadInput("--view", fmt::format("\"{}\"", view), "is no view; \"brickfield list views\" names them");
 }
 

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/field_error_view.h"
 #include "app/options.h"
 #include "app/parse.h"
 #include "core/error.h"
@@ -121,10 +122,10 @@ void checkMethod(const FieldChoice& choice) {
 }
 
 void checkShown(const FieldChoice& choice, const std::string& viewName) {
-  const DebugView* view = findView(viewName);
+  const DebugView* view = findAnyView(viewName);
   for (const char* flag : {"--slice", "--cascade"})
     if (choice.given.contains(flag) && !(view && view->isSlice))
-      throw BadInput(flag, "", "is of the views field, field-id and field-tiles");
+      throw BadInput(flag, "", "is of the views field, field-id, field-tiles and field-error");
   if (!view || !view->readsField) return;
   const FieldSettings& field = choice.settings;
   if (field.method == FieldMethod::Off)
@@ -138,6 +139,11 @@ void checkShown(const FieldChoice& choice, const std::string& viewName) {
 }
 
 } // namespace
+
+const DebugView* findAnyView(const std::string& name) {
+  const DebugView* error = fieldErrorView();
+  return error && error->name == name ? error : findView(name);
+}
 
 void addFieldOptions(CLI::App& command, FieldChoice& choice) {
   const auto add = [&command, &choice](const char* name, const char* help, Take take) {

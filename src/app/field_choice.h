@@ -18,6 +18,9 @@ struct FieldChoice {
   std::set<std::string> given; ///< flags of this group
 };
 
+/// Of the renderer's views and those that are made on the CPU; null: no such view.
+const DebugView* findAnyView(const std::string& name);
+
 /// --world-field --field-* --slice --cascade
 /// error  BadInput at parsing: a value out of its range
 void addFieldOptions(CLI::App& command, FieldChoice& choice);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "app/field_error_view.h"
 #include "app/image_io.h"
 #include "app/layers_io.h"
 #include "app/progress_bar.h"
@@ -18,10 +19,14 @@ namespace brickfield {
 
 namespace {
 
+bool showsFieldError(const RenderRequest& request) {
+  return fieldErrorView() && request.view == fieldErrorView()->name;
+}
+
 RendererSettings settingsOf(const RenderRequest& request) {
   RendererSettings settings;
   settings.exposureEv = request.exposureEv;
-  settings.view = request.view;
+  settings.view = showsFieldError(request) ? "field" : request.view;
   settings.worldField = request.field.settings;
   settings.fieldSlice = request.field.slice;
   return settings;
@@ -122,7 +127,10 @@ void runRender(const RenderRequest& request) {
   run.frames = drawFrames(request, scene, pose, renderer);
   const FrameLayers layers = renderer.readLayers();
   run.drawSeconds = stopwatch.seconds();
-  const std::vector<std::uint8_t> picture = renderer.readPicture();
+  RgbImage picture = displayImage(layers, renderer.readPicture());
+  if (showsFieldError(request))
+    picture = fieldErrorPicture(renderer.readWorldField(), renderer.fieldPicture(), layers.size, scene, pose,
+                                baked.fields.fieldOfNode);
   if (!request.stats.empty()) run.last = countFrame(request, run.view, renderer);
   if (const std::vector<std::string> errors = context->takeGlErrors(); !errors.empty())
     throw Failure("OpenGL: " + errors.front());
@@ -137,7 +145,7 @@ void runRender(const RenderRequest& request) {
   if (extensionOf(request.output) == ".exr")
     writeExr(request.output, {layers.size, layers.color});
   else
-    writePng(request.output, displayImage(layers, picture));
+    writePng(request.output, picture);
 }
 
 } // namespace brickfield

@@ -48,6 +48,7 @@ public:
   const WorldTriangles& triangles() const { return triangles_; }
   glm::dvec3 anchorWorld() const { return triangles_.anchorWorld(); }
   const FieldStats& stats() const { return stats_; }
+  const FieldPicture& picture() const { return frame_.picture; }
   /// Waits for the GPU.
   FieldVolumes read() const;
 

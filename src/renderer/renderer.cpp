@@ -350,6 +350,11 @@ FieldVolumes Renderer::readWorldField() const {
   return parts_->field->read();
 }
 
+FieldPicture Renderer::fieldPicture() const {
+  if (!parts_->field) throw Failure("renderer: no frame has made a world field");
+  return parts_->field->picture();
+}
+
 std::vector<std::string> framePassNames() {
   std::vector<std::string> names;
   Renderer::Parts::listPasses({false, true, true, true, true, true},

@@ -82,6 +82,8 @@ public:
   /// The world field of the last frame that made one; waits for the GPU.
   /// error Failure: there was none
   FieldVolumes readWorldField() const;
+  /// Where the plane of the field views lay in that frame.
+  FieldPicture fieldPicture() const;
 
   /// Compiles changed shader files anew; a line for each program that changed.
   std::vector<std::string> reloadShaders();

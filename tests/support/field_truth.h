@@ -1,52 +1,11 @@
-// The truth about the distance field of a posed scene's meshes, independent of what the renderer makes: triangles
-// placed on the CPU in double, their own weld and closedness, exact distances and winding numbers of the bakers.
+// The bakers' truth about the world field, as tests call it.
 #pragma once
 
-#include <algorithm>
-#include <limits>
-#include <memory>
-#include <vector>
-
-#include "scene/pose.h"
+#include "bakers/field_truth.h"
 
 namespace brickfield::test {
 
-/// At one point. Closed surfaces have an inside, all others are sheets.
-struct FieldTruth {
-  double closedDistance = std::numeric_limits<double>::infinity(); ///< metres, unsigned; infinite without any
-  double openDistance = std::numeric_limits<double>::infinity();
-  bool insideClosed = false; ///< of the closed part that is nearest
-  bool insideAny = false;    ///< of any closed part: differs from insideClosed only where parts reach into each other
-  int node = -1;             ///< of what is nearest, sheets by their unsigned distance; -1: there is nothing
-
-  double unsignedDistance() const { return std::min(closedDistance, openDistance); }
-  bool onClosedComponent() const { return closedDistance <= openDistance; }
-  /// The field's meaning: the nearest closed surface, signed, or the nearest sheet less half its thickness.
-  double unionDistance(double sheetHalfThickness) const {
-    return std::min(insideClosed ? -closedDistance : closedDistance, openDistance - sheetHalfThickness);
-  }
-};
-
-class FieldOracle {
-public:
-  /// fieldOfNode  as SceneFields has it: nodes with 0 or more are no meshes; may be empty
-  explicit FieldOracle(const Scene& scene, const Pose& pose, const std::vector<int>& fieldOfNode = {});
-  ~FieldOracle();
-  FieldOracle(FieldOracle&&) noexcept;
-
-  /// pointWorld metres
-  /// bound      distances exact to the rounding of floats in skins, else of double; a side is right farther from a
-  ///            surface than that
-  /// proved by  tests/oracle/support/field_truth_test.cpp
-  FieldTruth at(glm::dvec3 pointWorld) const;
-
-  std::size_t closedParts() const;
-  std::size_t closedTriangles() const;
-  std::size_t openTriangles() const;
-
-private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
-};
+using brickfield::FieldOracle;
+using brickfield::FieldTruth;
 
 } // namespace brickfield::test

@@ -1,15 +1,17 @@
 // A part is a connected piece of one instance. Whether it is closed, and which way it faces, is found anew here with
 // maps of rest positions, slowly and plainly.
-#include "tests/support/field_truth.h"
+#include "bakers/field_truth.h"
 
 #include <array>
 #include <map>
 #include <numeric>
 
+#include <tbb/parallel_for.h>
+
 #include "bakers/mesh_distance.h"
 #include "bakers/winding_number.h"
 
-namespace brickfield::test {
+namespace brickfield {
 
 namespace {
 
@@ -215,6 +217,12 @@ FieldTruth FieldOracle::at(glm::dvec3 pointWorld) const {
   return truth;
 }
 
+std::vector<FieldTruth> FieldOracle::at(std::span<const glm::dvec3> pointsWorld) const {
+  std::vector<FieldTruth> truths(pointsWorld.size());
+  tbb::parallel_for(std::size_t{0}, truths.size(), [&](std::size_t i) { truths[i] = at(pointsWorld[i]); });
+  return truths;
+}
+
 std::size_t FieldOracle::closedParts() const { return parts_->closed.size(); }
 std::size_t FieldOracle::closedTriangles() const {
   std::size_t sum = 0;
@@ -223,4 +231,4 @@ std::size_t FieldOracle::closedTriangles() const {
 }
 std::size_t FieldOracle::openTriangles() const { return parts_->open ? parts_->open->triangleCount() : 0; }
 
-} // namespace brickfield::test
+} // namespace brickfield
