@@ -2,13 +2,15 @@
 #include "passes/world_field/exact_passes.h"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace brickfield {
 
 namespace {
 
-std::shared_ptr<Program> loadCompute(ShaderLibrary& shaders, const std::string& name) {
-  return shaders.load({name, {{GL_COMPUTE_SHADER, "passes/" + name + ".comp.glsl"}}, {}, {}});
+// Named as its file.
+std::shared_ptr<Program> loadCompute(ShaderLibrary& shaders, const std::string& path) {
+  return shaders.load({std::filesystem::path(path).stem().stem().string(), {{GL_COMPUTE_SHADER, path}}, {}, {}});
 }
 
 // One work group an entry; what one dimension cannot hold goes to a second (lib/field_grid.glsl listIndex).
@@ -27,9 +29,9 @@ constexpr GLuint kPartGroups = 1024; // each takes parts until none is left
 } // namespace
 
 FieldSplatPass::FieldSplatPass(ShaderLibrary& shaders)
-    : clear_(loadCompute(shaders, "field_clear")),
-      splat_(loadCompute(shaders, "field_splat")),
-      parts_(loadCompute(shaders, "field_splat_parts")) {}
+    : clear_(loadCompute(shaders, "passes/field_clear.comp.glsl")),
+      splat_(loadCompute(shaders, "passes/field_splat.comp.glsl")),
+      parts_(loadCompute(shaders, "passes/field_splat_parts.comp.glsl")) {}
 
 PassDeclaration FieldSplatPass::declare() {
   return {
@@ -56,9 +58,9 @@ void FieldSplatPass::record(ExactField& field, const Buffer& triangles) {
 }
 
 FieldCandidatesPass::FieldCandidatesPass(ShaderLibrary& shaders)
-    : seeds_(loadCompute(shaders, "field_seeds")),
-      sweep_(loadCompute(shaders, "field_sweep")),
-      candidates_(loadCompute(shaders, "field_candidates")) {}
+    : seeds_(loadCompute(shaders, "passes/field_seeds.comp.glsl")),
+      sweep_(loadCompute(shaders, "passes/field_sweep.comp.glsl")),
+      candidates_(loadCompute(shaders, "passes/field_candidates.comp.glsl")) {}
 
 PassDeclaration FieldCandidatesPass::declare() {
   return {"field_candidates",
@@ -96,9 +98,9 @@ void FieldCandidatesPass::record(const ExactField& field, const Buffer& triangle
 }
 
 FieldResolvePass::FieldResolvePass(ShaderLibrary& shaders)
-    : evaluate_(loadCompute(shaders, "field_evaluate")),
-      resolve_(loadCompute(shaders, "field_resolve")),
-      objects_(loadCompute(shaders, "field_objects")) {}
+    : evaluate_(loadCompute(shaders, "passes/field_evaluate.comp.glsl")),
+      resolve_(loadCompute(shaders, "passes/field_resolve.comp.glsl")),
+      objects_(loadCompute(shaders, "passes/field_objects.comp.glsl")) {}
 
 PassDeclaration FieldResolvePass::declare() {
   return {"field_resolve",
