@@ -39,8 +39,8 @@ SHARED_CONST uint VISIBLE_LEVEL_SHIFT = 24u;
 SHARED_CONST uint VISIBLE_LEVEL_MASK = 0x7u;
 SHARED_CONST uint VISIBLE_INSIDE = 0x80000000u;
 
-// DrawArraysIndirectCommand of the visible boxes: one for the faces that look at the eye, one for the far faces of boxes
-// that the near plane or the eye may cut.
+// DrawArraysIndirectCommand of the visible boxes: one for the faces that look at the eye, one for the far faces of
+// boxes that the near plane or the eye may cut.
 struct BoxCommand {
   uint vertices;
   uint instances;

@@ -1,6 +1,6 @@
 // The world field on the GPU. Spaces: anchored = metres of world from an anchor near the camera, so that 10 km from the
-// origin floats still tell millimetres apart; lattice = texels of a cascade counted from the anchor, a texel's centre at
-// half numbers; slot = lattice modulo the cascade's size, which is where a texel lies in memory whatever the window.
+// origin floats still tell millimetres apart; lattice = texels of a cascade counted from the anchor, a texel's centre
+// at half numbers; slot = lattice modulo the cascade's size, which is where a texel lies in memory whatever the window.
 #ifndef BRICKFIELD_WORLD_FIELD_PARAMS_H
 #define BRICKFIELD_WORLD_FIELD_PARAMS_H
 #include "shared/bridge.h"
@@ -38,9 +38,10 @@ SHARED_CONST uint FIELD_TILE_TEXELS = 512; // the smallest part that is made ane
 SHARED_CONST uint MOST_CASCADES = 8;
 
 struct FieldCascade {
-  ivec4 window;  // xyz: lattice of the window's first texel; w: texels along a side, a power of two
-  vec4 texel;    // x: metres; y: texels a metre; z: largest magnitude stored, texels; w: half a sheet's thickness, texels
-  uvec4 buffers; // x: first texel, y: first coarse texel, z: first tile in the buffers of all cascades; w: FIELD_* flags
+  ivec4 window; // xyz: lattice of the window's first texel; w: texels along a side, a power of two
+  vec4 texel; // x: metres; y: texels a metre; z: largest magnitude stored, texels; w: half a sheet's thickness, texels
+  uvec4
+      buffers; // x: first texel, y: first coarse texel, z: first tile in the buffers of all cascades; w: FIELD_* flags
 };
 SHARED_ASSERT_SIZE(FieldCascade, 48)
 
@@ -57,9 +58,9 @@ SHARED_ASSERT_SIZE(FieldParams, 80 * 8 + 32)
 
 // What is kept of a tile.
 struct FieldTile {
-  uint update;      // number of the last update that made its keys anew
-  uint nearest;     // triangle nearest to any of its coarse texels, or FIELD_NONE
-  uint nearestBits; // distance of the two, texels; float bits
+  uint update;       // number of the last update that made its keys anew
+  uint nearest;      // triangle nearest to any of its coarse texels, or FIELD_NONE
+  uint nearestBits;  // distance of the two, texels; float bits
   uint nearestTexel; // that coarse texel's number in the tile
 };
 SHARED_ASSERT_SIZE(FieldTile, 16)
