@@ -40,8 +40,7 @@ SHARED_CONST uint MOST_CASCADES = 8;
 struct FieldCascade {
   ivec4 window; // xyz: lattice of the window's first texel; w: texels along a side, a power of two
   vec4 texel; // x: metres; y: texels a metre; z: largest magnitude stored, texels; w: half a sheet's thickness, texels
-  uvec4
-      buffers; // x: first texel, y: first coarse texel, z: first tile in the buffers of all cascades; w: FIELD_* flags
+  uvec4 buffers; // first x: texel, y: coarse texel, z: tile in the buffers of all cascades; w: FIELD_* flags
 };
 SHARED_ASSERT_SIZE(FieldCascade, 48)
 
