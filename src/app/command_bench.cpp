@@ -75,8 +75,13 @@ void report(nlohmann::json& results, const std::string& size, const std::string&
 }
 
 int benchWorldField(const FieldBenchRequest& request) {
+  const std::vector<OutputPath> outputs{{"--json", request.json, {".json"}}};
+  checkOutputs(outputs, {request.scene});
   checkInputPath(request.scene, {".gltf", ".glb"});
-  const Scene scene = withMover(importGltf(request.scene));
+  const Scene loaded = importGltf(request.scene);
+  checkSceneFiles(loaded, outputs);
+  if (poseScene(loaded, {}).boundsWorld.isEmpty()) throw BadInput(loaded.name, "", "has no triangle to measure with");
+  const Scene scene = withMover(loaded);
   const std::unique_ptr<Context> context = Context::createHeadless(request.device);
   FieldBench bench(context->info(), scene, {});
   fmt::print("{}: {}, {} | {}\n", request.scene.filename().string(), context->info().renderer, context->info().version,
