@@ -155,5 +155,41 @@ TEST_F(RenderStats, SaysWhatItsTimersAreWorth) {
   EXPECT_EQ(json["gpu"]["software"], true);
 }
 
+TEST_F(RenderStats, WorldFieldIsThatOfTheLastFrame) {
+  EXPECT_EQ(renderStatsJson(run_)["world_field"], nlohmann::ordered_json({{"made", false}}));
+  FieldStats& field = run_.frames.back().field;
+  field.method = FieldMethod::Exact;
+  field.cascades = 4, field.triangles = 12, field.movedInstances = 1;
+  field.tiles = 100, field.keyTiles = 3, field.candidateTiles = 5, field.valueTiles = 7;
+  field.bytes = {1000, 200, 30, 4, 50000};
+  nlohmann::ordered_json json = renderStatsJson(run_)["world_field"];
+  EXPECT_EQ(json["made"], true);
+  EXPECT_EQ(json["moved_instances"], 1);
+  EXPECT_EQ(json["tiles"]["all"], 100);
+  EXPECT_EQ(json["tiles"]["keys"], 3);
+  EXPECT_EQ(json["tiles"]["values"], 7);
+  EXPECT_EQ(json["bytes"]["all"], 51234);
+  EXPECT_EQ(json["bytes"]["nodes"], 4);
+  field.method = FieldMethod::Rtsdf;
+  EXPECT_FALSE(renderStatsJson(run_)["world_field"].contains("tiles"));
+}
+
+TEST_F(RenderStats, WorldFieldSettingsAreThoseOfItsMethod) {
+  const auto settings = [&] { return renderStatsJson(run_)["settings"]["world_field"]; };
+  EXPECT_EQ(settings()["method"], "exact");
+  EXPECT_EQ(settings()["cascades"], 4);
+  EXPECT_EQ(settings()["texel_metres"], "covers the scene");
+  request_.field.settings.method = FieldMethod::Rtsdf;
+  request_.field.settings.rtsdf.maskWidth = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(settings()["texels"], (nlohmann::ordered_json{256, 256, 256}));
+  EXPECT_EQ(settings()["mask"], "inf");
+  EXPECT_EQ(settings()["rays"], 5);
+  request_.field.settings.rtsdf.bruteForce = true;
+  EXPECT_EQ(settings()["texels"], (nlohmann::ordered_json{400, 200, 400}));
+  EXPECT_FALSE(settings().contains("alpha"));
+  request_.field.settings.method = FieldMethod::Off;
+  EXPECT_EQ(settings(), nlohmann::ordered_json({{"method", "off"}}));
+}
+
 } // namespace
 } // namespace brickfield
