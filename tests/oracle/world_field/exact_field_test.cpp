@@ -10,6 +10,7 @@
 #include "tests/support/field_truth.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/hand_scenes.h"
+#include "tests/support/scene_frames.h"
 #include "tests/support/world_field_stage.h"
 
 namespace brickfield::test {
@@ -42,7 +43,9 @@ bool isInsideOnBothSides(const FieldOracle& oracle, glm::dvec3 pointWorld, doubl
   return false;
 }
 
-FieldError errorOf(const FieldSnapshot& field, const FieldOracle& oracle, std::size_t stride) {
+// Over every stride-th texel, of those in a box of the world.
+FieldError errorOf(const FieldSnapshot& field, const FieldOracle& oracle, std::size_t stride,
+                   const Box& box = {glm::vec3(-INFINITY), glm::vec3(INFINITY)}) {
   const std::size_t count = field.distances.size() / stride;
   const double h = field.window.texelSize, range = field.window.rangeTexels();
   std::vector<FieldTruth> truths(count);
@@ -55,6 +58,7 @@ FieldError errorOf(const FieldSnapshot& field, const FieldOracle& oracle, std::s
   std::size_t far = 0, signedTexels = 0, wrong = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const FieldTruth& truth = truths[i];
+    if (!box.contains(glm::vec3(field.centerAnchored(i * stride) + field.anchorWorld))) continue;
     const double expected = std::clamp(truth.unionDistance(0.5 * h) / h, -range, range);
     const double off = field.distances[i * stride] - expected;
     const double toSurface = truth.unsignedDistance() / h;
@@ -183,6 +187,54 @@ TEST_F(ExactField, UpdatesEqualTheFieldMadeFromNothing) {
         differing += made.distances[i] != updated.distances[i] || made.nodes[i] != updated.nodes[i];
       EXPECT_EQ(differing, 0u) << "frame " << frame << ", cascade " << cascade;
     }
+  }
+}
+
+// A torus of bricks and a sphere of triangles, apart. In the object's box its bricks' values count: 8-bit codes of
+// trilinear cells, of coarser levels a few voxels from the surface. Outside of the box all is a lower bound.
+TEST_F(ExactField, SdfObjectsJoinMeshes) {
+  Scene built = makeInterpenetration();
+  built.nodes[1].matrix = glm::translate(glm::mat4(1), glm::vec3(1.6f, 0.2f, 0.1f));
+  const TestScene scene(std::move(built), "Torus", 128);
+  WorldFieldStage stage(scene.scene(), scene.fields(), {1, 64, 0, true});
+  stage.frame(scene.pose(), glm::dvec3(0));
+  const FieldSnapshot field = stage.read();
+  const FieldOracle oracle(scene.scene(), scene.pose());
+  const FieldError inBox =
+      errorOf(field, oracle, 1, {glm::vec3(-0.82f, -0.82f, -0.22f), glm::vec3(0.82f, 0.82f, 0.22f)});
+  print("in the box of the bricks", inBox);
+  EXPECT_LE(inBox.rms, 0.05);
+  EXPECT_LE(inBox.p999, 0.3);
+  const FieldError error = errorOf(field, oracle, 1);
+  print("torus of bricks, sphere", error);
+  EXPECT_LE(error.wrongSigns, 1e-4);
+  EXPECT_LE(error.farAbove, 0.05);
+  const auto nodeAt = [&](glm::vec3 point) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < field.nodes.size(); ++i)
+      if (glm::distance(field.centerAnchored(i) + field.anchorWorld, glm::dvec3(point)) <
+          glm::distance(field.centerAnchored(nearest) + field.anchorWorld, glm::dvec3(point)))
+        nearest = i;
+    return field.nodes[nearest] & shared::FIELD_NODE_MASK;
+  };
+  EXPECT_EQ(nodeAt({0.6f, 0, 0}), 1u) << "inside the torus";
+  EXPECT_EQ(nodeAt({2.0f, 0.2f, 0.1f}), 2u) << "inside the sphere";
+}
+
+// A brick object that moves; the field is to the bit what it would be without a past.
+TEST_F(ExactField, UpdatesOfSdfObjectsEqualTheFieldMadeFromNothing) {
+  const TestScene scene(makeInterpenetration(), "Sphere", 64);
+  const FieldShape shape{2, 64, 0.05, false};
+  WorldFieldStage moving(scene.scene(), scene.fields(), shape);
+  for (int frame = 0; frame < 4; ++frame) {
+    Pose pose = scene.pose();
+    pose.instances[1].worldFromObject =
+        glm::translate(glm::mat4(1), glm::vec3(0.4f * static_cast<float>(frame), 0.3f, 0));
+    moving.frame(pose, glm::dvec3(0));
+    WorldFieldStage fromNothing(scene.scene(), scene.fields(), shape);
+    fromNothing.frame(pose, glm::dvec3(0));
+    for (std::size_t cascade = 0; cascade < 2; ++cascade)
+      EXPECT_EQ(moving.read(cascade), fromNothing.read(cascade)) << "frame " << frame << ", cascade " << cascade;
   }
 }
 
