@@ -20,7 +20,7 @@ void main() {
   ivec3 coarse = tile.firstTexel / COARSE + ivec3(gl_LocalInvocationIndex & 3u, gl_LocalInvocationIndex >> 2 & 3u,
                                                   gl_LocalInvocationIndex >> 4);
   ivec3 along = ivec3(axis == 0, axis == 1, axis == 2);
-  int reach = cascade.window.w / 16 + 2; // field/field_windows.h fieldSweepReach
+  int reach = int(cascade.texel.z) / 2 + 2; // field/field_windows.h fieldSweepReach
   int best = 1 << 20, bestOffset = 0;
   uint bestWord = 0u;
   for (int step = 0; step <= reach && step * step < best; ++step)

@@ -2,6 +2,7 @@
 // through an anchor, cut in tiles of 8^3 texels. No GL; the passes under passes/world_field do what is planned here.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,8 +21,9 @@ struct FieldWindow {
   bool isWhole = false;     ///< nothing that counts lies outside
 
   int tiles() const { return texels / kFieldTileTexels; }
-  /// Largest magnitude that the field holds; beyond it only the sign is kept.
-  int rangeTexels() const { return texels / 8; }
+  /// Largest magnitude that the field holds; beyond it only the sign is kept. It is what a change reaches, so it is as
+  /// short as steps of rays allow.
+  int rangeTexels() const { return std::min(texels / 8, 16); }
   Box boundsAnchored() const;
   bool operator==(const FieldWindow&) const = default;
 };
