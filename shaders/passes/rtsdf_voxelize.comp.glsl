@@ -89,6 +89,12 @@ void voxelizeSmall(uint number) {
         if (touches(t, ivec3(x, y, z))) mark(ivec3(x, y, z));
 }
 
+// The same components with `axis` last, and back. A loop that counts in a vector's component of a computed number never
+// ends on NVIDIA 580.159, and the GPU hangs.
+vec3 withAxisLast(vec3 v, int axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy : v; }
+ivec3 withAxisLast(ivec3 v, int axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy : v; }
+ivec3 fromAxisLast(ivec3 v, int axis) { return axis == 0 ? v.zxy : axis == 1 ? v.yzx : v; }
+
 // Columns of voxels along the axis that the plane crosses most steeply: of each only the voxels around the plane.
 void voxelizeLarge(uint number) {
   VoxelTriangle t;
@@ -97,24 +103,25 @@ void voxelizeLarge(uint number) {
   voxelRange(t, first, last);
   vec3 steepness = abs(t.normal);
   int axis = steepness.x > steepness.y ? (steepness.x > steepness.z ? 0 : 2) : (steepness.y > steepness.z ? 1 : 2);
-  int axisU = (axis + 1) % 3, axisV = (axis + 2) % 3;
-  int width = last[axisU] - first[axisU] + 1;
-  int columns = width * (last[axisV] - first[axisV] + 1);
+  first = withAxisLast(first, axis);
+  last = withAxisLast(last, axis);
+  vec3 normal = withAxisLast(t.normal, axis), onPlane = withAxisLast(t.a, axis);
+  int width = last.x - first.x + 1;
+  int columns = width * (last.y - first.y + 1);
   for (int column = int(gl_LocalInvocationIndex); column < columns; column += 64) {
-    ivec3 voxel = first;
-    voxel[axisU] += column % width;
-    voxel[axisV] += column / width;
-    ivec2 range = ivec2(first[axis], last[axis]);
-    if (steepness[axis] > 0.0) {
+    ivec2 place = first.xy + ivec2(column % width, column / width);
+    ivec2 range = ivec2(first.z, last.z);
+    if (abs(normal.z) > 0.0) {
       // Where the plane is at the column's middle, and how far it gets from there in half a voxel along both others.
-      vec2 slopes = vec2(t.normal[axisU], t.normal[axisV]) / t.normal[axis];
-      vec2 offset = vec2(voxel[axisU], voxel[axisV]) + 0.5 - vec2(t.a[axisU], t.a[axisV]);
-      float middle = t.a[axis] - dot(slopes, offset);
+      vec2 slopes = normal.xy / normal.z;
+      float middle = onPlane.z - dot(slopes, vec2(place) + 0.5 - onPlane.xy);
       float reach = 0.5 * (abs(slopes.x) + abs(slopes.y)) + 0.01; // 1 at most; large triangles lose some digits
       range = clamp(ivec2(floor(vec2(middle - reach, middle + reach))), range.x, range.y);
     }
-    for (voxel[axis] = range.x; voxel[axis] <= range.y; ++voxel[axis])
+    for (int z = range.x; z <= range.y; ++z) {
+      ivec3 voxel = fromAxisLast(ivec3(place, z), axis);
       if (touches(t, voxel)) mark(voxel);
+    }
   }
 }
 
