@@ -46,7 +46,8 @@ bool isCutByNearPlane(SdfInstance instance) {
   return all(lessThanEqual(lower - 0.1, instance.boxMax.xyz)) && all(greaterThanEqual(upper + 0.1, instance.boxMin.xyz));
 }
 
-// The level whose voxel, at the box's nearest point, is at most a pixel.
+// The level whose voxel, at the box's nearest point, is at most half a pixel: at a whole one, walls that are thinner than
+// a voxel break up while they still are to be seen.
 uint levelFor(SdfInstance instance) {
   if (frame.counts.y > 0u) return min(frame.counts.y - 1u, uint(instance.ids.z) - 1u);
   float nearest = frame.eyeWorld.w;
@@ -58,7 +59,7 @@ uint levelFor(SdfInstance instance) {
     nearest = 1.0;
   }
   float pixelWorld = 2.0 * nearest / (frame.projection.y * float(frame.size.y));
-  float level = floor(log2(pixelWorld / instance.boxMin.w));
+  float level = floor(log2(pixelWorld / instance.boxMin.w)) - 1.0;
   return uint(clamp(level, 0.0, float(instance.ids.z - 1)));
 }
 
