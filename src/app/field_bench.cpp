@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "app/session.h"
+#include "core/error.h"
 
 namespace brickfield {
 
@@ -124,8 +125,10 @@ FieldTimes FieldBench::timeFrames(int frames, const Record& record) {
     throwIfInterrupted();
     timers_.beginFrame();
     record(frame);
+    const std::vector<PassTime> passes = timers_.results();
+    if (passes.empty()) throw Failure("the GPU gave no times: it may have been reset");
     double sum = 0;
-    for (const PassTime& pass : timers_.results()) {
+    for (const PassTime& pass : passes) {
       if (!samples.contains(pass.name)) order.push_back(pass.name);
       samples[pass.name].push_back(pass.milliseconds);
       sum += pass.milliseconds;
