@@ -24,6 +24,9 @@ uint indexInTile(ivec3 lattice, int side) {
   return uint((at.z * side + at.y) * side + at.x);
 }
 
+// The index-th place of a cube, x fastest.
+ivec3 cubeIndex(int index, int side) { return ivec3(index % side, index / side % side, index / (side * side)); }
+
 // Word of a texel in the buffers that hold one word a texel.
 uint texelWord(FieldCascade cascade, ivec3 lattice) {
   return cascade.buffers.x + tileSlot(cascade, lattice >> 3) * FIELD_TILE_TEXELS + indexInTile(lattice, int(FIELD_TILE));

@@ -37,7 +37,7 @@ void main() {
   for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += 64)
     named[i] = seedNamedBy(cascade, first - 1 + ivec3(i % APRON, i / APRON % APRON, i / (APRON * APRON)));
   barrier();
-  ivec3 at = ivec3(gl_LocalInvocationIndex & 3u, gl_LocalInvocationIndex >> 2 & 3u, gl_LocalInvocationIndex >> 4);
+  ivec3 at = cubeIndex(int(gl_LocalInvocationIndex), COARSE_TILE);
   vec3 point = coarseCenter(cascade, first + at);
   float sheetHalf = cascade.texel.w * cascade.texel.x;
   Nearest nearest = Nearest(FIELD_NONE, 1e30);

@@ -18,8 +18,6 @@ const int KEY_APRON = int(FIELD_TILE) + 2;
 shared uint coarseIds[COARSE_APRON * COARSE_APRON * COARSE_APRON];
 shared uint keyIds[KEY_APRON * KEY_APRON * KEY_APRON];
 
-ivec3 cubeIndex(int index, int side) { return ivec3(index % side, index / side % side, index / (side * side)); }
-
 void main() {
   uint index = listIndex();
   if (index >= listLength) return;

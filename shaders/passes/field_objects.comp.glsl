@@ -17,8 +17,6 @@ shared uint reaching[MOST_OBJECTS];
 shared uint reachingCount;
 shared uint farthestBits; // largest value in the tile, metres
 
-ivec3 cubeIndex(int index, int side) { return ivec3(index % side, index / side % side, index / (side * side)); }
-
 void main() {
   uint index = listIndex();
   if (index >= listLength) return;

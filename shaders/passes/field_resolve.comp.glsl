@@ -38,8 +38,6 @@ shared uint apron[APRON * APRON * APRON];
 shared float coarseTexels[COARSE_APRON * COARSE_APRON * COARSE_APRON];
 shared uint coarseWords[COARSE_APRON * COARSE_APRON * COARSE_APRON]; // as of nodes
 
-ivec3 cubeIndex(int index, int side) { return ivec3(index % side, index / side % side, index / (side * side)); }
-
 bool isBandAt(FieldCascade cascade, ivec3 lattice) {
   return isBandTile(tiles[cascade.buffers.z + tileSlot(cascade, lattice >> 3)]);
 }

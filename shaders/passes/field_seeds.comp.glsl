@@ -17,8 +17,7 @@ void main() {
   if (index >= listLength) return;
   ListedTile tile = listedTile(listed[index]);
   FieldCascade cascade = field.cascades[tile.cascade];
-  ivec3 coarse = tile.firstTexel / COARSE + ivec3(gl_LocalInvocationIndex & 3u, gl_LocalInvocationIndex >> 2 & 3u,
-                                                  gl_LocalInvocationIndex >> 4);
+  ivec3 coarse = tile.firstTexel / COARSE + cubeIndex(int(gl_LocalInvocationIndex), COARSE_TILE);
   uint key = FIELD_NONE;
   for (int i = 0; i < 8; ++i)
     key = min(key, keys[texelWord(cascade, coarse * COARSE + ivec3(i & 1, i >> 1 & 1, i >> 2))]);

@@ -15,8 +15,6 @@ shared uint nearCount;
 const int BLOCK = 4;
 const float BLOCK_HALF_DIAGONAL = 2.5980763; // from its centre to its outermost texel centres, sqrt(3) * 1.5
 
-ivec3 cubeIndex(uint index, uint side) { return ivec3(index % side, index / side % side, index / (side * side)); }
-
 void main() {
   uint thread = gl_LocalInvocationIndex;
   uint count = min(partCount, SPLAT_PART_CAPACITY);
@@ -27,12 +25,12 @@ void main() {
     SplatTriangle t = splatTriangle(cascade, part.x);
     if (thread == 0u) nearCount = 0u;
     barrier();
-    vec3 center = vec3(corner + cubeIndex(thread, 4u) * BLOCK) + 0.5 * float(BLOCK);
+    vec3 center = vec3(corner + cubeIndex(int(thread), BLOCK) * BLOCK) + 0.5 * float(BLOCK);
     float reach = SPLAT_TEXELS + BLOCK_HALF_DIAGONAL + 1e-3;
     if (squaredTriangleDistance(center, t.a, t.b, t.c) <= reach * reach) nearBlocks[atomicAdd(nearCount, 1u)] = thread;
     barrier();
     for (uint block = 0u; block < nearCount; ++block) {
-      ivec3 lattice = corner + cubeIndex(nearBlocks[block], 4u) * BLOCK + cubeIndex(thread, 4u);
+      ivec3 lattice = corner + cubeIndex(int(nearBlocks[block]), BLOCK) * BLOCK + cubeIndex(int(thread), BLOCK);
       if (isInWindow(cascade, lattice)) splatTexel(cascade, t, lattice);
     }
     barrier();

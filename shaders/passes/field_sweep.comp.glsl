@@ -17,8 +17,7 @@ void main() {
   if (index >= listLength) return;
   ListedTile tile = listedTile(listed[index]);
   FieldCascade cascade = field.cascades[tile.cascade];
-  ivec3 coarse = tile.firstTexel / COARSE + ivec3(gl_LocalInvocationIndex & 3u, gl_LocalInvocationIndex >> 2 & 3u,
-                                                  gl_LocalInvocationIndex >> 4);
+  ivec3 coarse = tile.firstTexel / COARSE + cubeIndex(int(gl_LocalInvocationIndex), COARSE_TILE);
   ivec3 along = ivec3(axis == 0, axis == 1, axis == 2);
   int reach = int(cascade.texel.z) / 2 + 2; // field/field_windows.h fieldSweepReach
   int best = 1 << 20, bestOffset = 0;

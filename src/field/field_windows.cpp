@@ -197,6 +197,17 @@ glm::ivec3 fieldTileLattice(const FieldWindow& window, std::uint32_t slot) {
   return first + ((at - first) & (window.tiles() - 1));
 }
 
+std::vector<TexelBox> boundsOfTiles(const std::vector<FieldWindow>& windows, const std::vector<std::uint32_t>& words) {
+  std::vector<TexelBox> boxes(windows.size());
+  for (const std::uint32_t word : words) {
+    TexelBox& box = boxes[word >> 24];
+    const glm::ivec3 texel = fieldTileLattice(windows[word >> 24], word & 0xffffffu) * kFieldTileTexels;
+    box.min = glm::min(box.min, texel);
+    box.max = glm::max(box.max, texel + kFieldTileTexels - 1);
+  }
+  return boxes;
+}
+
 std::vector<FieldWindow> fieldWindows(const FieldShape& shape, const Box& boundsAnchored, glm::dvec3 eyeAnchored) {
   const Box bounds = boundsOrMetre(boundsAnchored);
   const glm::dvec3 least(bounds.min), most(bounds.max);

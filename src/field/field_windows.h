@@ -67,6 +67,14 @@ std::uint32_t fieldTileWord(std::size_t cascade, const FieldWindow& window, glm:
 /// The tile that lies in a slot: the way back.
 glm::ivec3 fieldTileLattice(const FieldWindow& window, std::uint32_t slot);
 
+/// Texels of a lattice from min to max, both included; empty where they cross.
+struct TexelBox {
+  glm::ivec3 min{1 << 28}, max{-(1 << 28)};
+  bool isEmpty() const { return glm::any(glm::greaterThan(min, max)); }
+};
+/// The box of all tiles of a list, a cascade each.
+std::vector<TexelBox> boundsOfTiles(const std::vector<FieldWindow>& windows, const std::vector<std::uint32_t>& words);
+
 /// Plans updates from frame to frame.
 class FieldUpdatePlanner {
 public:

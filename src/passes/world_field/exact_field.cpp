@@ -19,19 +19,6 @@ std::size_t texelsOf(const FieldWindow& window) {
   return static_cast<std::size_t>(window.texels) * window.texels * window.texels;
 }
 
-/// The box of all tiles whose keys are made anew, a cascade each; empty ones have their ends crossed.
-void boundSplats(const std::vector<FieldWindow>& windows, const std::vector<std::uint32_t>& keyTiles,
-                 shared::FieldParams& params) {
-  for (glm::ivec4& min : params.splatMin) min = glm::ivec4(1 << 28);
-  for (glm::ivec4& max : params.splatMax) max = glm::ivec4(-(1 << 28));
-  for (const std::uint32_t word : keyTiles) {
-    const std::size_t cascade = word >> 24;
-    const glm::ivec3 texel = fieldTileLattice(windows[cascade], word & 0xffffffu) * kFieldTileTexels;
-    params.splatMin[cascade] = glm::min(params.splatMin[cascade], glm::ivec4(texel, 0));
-    params.splatMax[cascade] = glm::max(params.splatMax[cascade], glm::ivec4(texel + kFieldTileTexels - 1, 0));
-  }
-}
-
 constexpr std::array<const char*, ExactField::kLists> kListLabels = {"field_key_tiles",       "field_row_tiles",
                                                                      "field_column_tiles",    "field_depth_tiles",
                                                                      "field_candidate_tiles", "field_value_tiles"};
@@ -104,9 +91,10 @@ void ExactField::prepare(const std::vector<FieldWindow>& windows, const FieldWor
     row.texel = {window.texelSize, 1.0 / window.texelSize, window.rangeTexels(), kSheetHalfTexels};
     row.buffers = {firstTexel, firstTexel / 8, firstTexel / shared::FIELD_TILE_TEXELS,
                    window.isWhole ? shared::FIELD_WHOLE : 0u};
+    params.splatMin[i] = glm::ivec4(work.keyBounds[i].min, 0);
+    params.splatMax[i] = glm::ivec4(work.keyBounds[i].max, 0);
     firstTexel += static_cast<std::uint32_t>(texelsOf(window));
   }
-  boundSplats(windows, work.tiles.keys, params);
   params.counts = {windows.size(), triangleBits, work.sdfInstanceCount, ++update_};
   params.anchor = glm::vec4(work.anchorWorld, 0);
   params_.uploadValue(params);

@@ -16,6 +16,7 @@ namespace brickfield {
 /// Everything that one update works on.
 struct FieldWork {
   FieldUpdate tiles;
+  std::vector<TexelBox> keyBounds;        ///< a cascade: the box of all tiles.keys
   std::vector<shared::FieldSplat> splats; ///< triangles that may reach the tiles whose keys are made anew
   glm::dvec3 anchorWorld{0};
   std::uint32_t triangleCount = 0; ///< numbers that may occur, for the coding of keys

@@ -33,17 +33,12 @@ bool holds(const Box& outer, const Box& inner) {
          glm::all(glm::greaterThanEqual(outer.max, inner.max));
 }
 
-/// The box, metres from the anchor, of all tiles of one cascade in a list, and of the keys' reach around them.
-Box boundsOfTiles(const std::vector<std::uint32_t>& words, std::size_t cascade, const FieldWindow& window) {
-  Box box;
-  const auto begin = std::lower_bound(words.begin(), words.end(), static_cast<std::uint32_t>(cascade << 24));
-  const auto end = std::lower_bound(words.begin(), words.end(), static_cast<std::uint32_t>((cascade + 1) << 24));
-  for (auto word = begin; word != end; ++word) {
-    const glm::dvec3 texel(fieldTileLattice(window, *word & 0xffffffu) * kFieldTileTexels);
-    box.extend({glm::vec3((texel - 2.0) * window.texelSize),
-                glm::vec3((texel + 2.0 + static_cast<double>(kFieldTileTexels)) * window.texelSize)});
-  }
-  return box;
+/// The box, metres from the anchor, of what may leave its key in texels.
+Box reachOf(const TexelBox& texels, const FieldWindow& window) {
+  if (texels.isEmpty()) return {};
+  const double margin = std::ceil(kFieldSplatTexels);
+  return {glm::vec3((glm::dvec3(texels.min) - margin) * window.texelSize),
+          glm::vec3((glm::dvec3(texels.max) + 1.0 + margin) * window.texelSize)};
 }
 
 } // namespace
@@ -98,11 +93,12 @@ std::vector<Box> WorldField::changedObjects(const ResidentScene& scene) {
   return boxes;
 }
 
-std::vector<shared::FieldSplat> WorldField::splatsFor(const WorldTriangles& triangles, const FieldUpdate& update,
+std::vector<shared::FieldSplat> WorldField::splatsFor(const WorldTriangles& triangles,
+                                                      const std::vector<TexelBox>& keyBounds,
                                                       const std::vector<FieldWindow>& windows) const {
   std::vector<shared::FieldSplat> splats;
   for (std::size_t cascade = 0; cascade < windows.size(); ++cascade) {
-    const Box dirty = boundsOfTiles(update.keys, cascade, windows[cascade]);
+    const Box dirty = reachOf(keyBounds[cascade], windows[cascade]);
     if (dirty.isEmpty()) continue;
     for (const InstanceRange& range : triangles.instances()) {
       if (range.boundsAnchored.isEmpty() || !meets(range.boundsAnchored, dirty)) continue;
@@ -124,7 +120,8 @@ void WorldField::update(const WorldTriangles& triangles, const ResidentScene& sc
   }
   FieldWork work;
   work.tiles = planner_.plan(windows, meshes, changedObjects(scene));
-  work.splats = splatsFor(triangles, work.tiles, windows);
+  work.keyBounds = boundsOfTiles(windows, work.tiles.keys);
+  work.splats = splatsFor(triangles, work.keyBounds, windows);
   work.anchorWorld = anchorWorld_;
   work.triangleCount = triangles.triangleCount();
   work.sdfInstanceCount = scene.sdfInstanceCount();

@@ -31,7 +31,7 @@ public:
 
 private:
   std::vector<Box> changedObjects(const ResidentScene& scene);
-  std::vector<shared::FieldSplat> splatsFor(const WorldTriangles& triangles, const FieldUpdate& update,
+  std::vector<shared::FieldSplat> splatsFor(const WorldTriangles& triangles, const std::vector<TexelBox>& keyBounds,
                                             const std::vector<FieldWindow>& windows) const;
   Box anchoredBounds() const;
   FieldShape sizedShape() const;
