@@ -29,7 +29,8 @@ SHARED_CONST uint GATHER_TRIANGLES = 64;
 struct WorldInstance {
   mat4 anchoredFromObject;
   uvec4 triangles; // x: first world triangle; y: count; z: first row of the mesh's corner table; w: node << 2 | flags
-  uvec4 vertices;  // x: first welded vertex of the instance; y: count; z: first row of the mesh's fan table; w: WORLD_INSTANCE_*
+  uvec4
+      vertices; // x: first welded vertex of the instance; y: count; z: first row of the fan table; w: WORLD_INSTANCE_*
 };
 SHARED_ASSERT_SIZE(WorldInstance, 96)
 
