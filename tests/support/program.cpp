@@ -7,7 +7,6 @@
 #include <fcntl.h>
 #include <fstream>
 #include <sstream>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -64,11 +63,19 @@ int waitFor(pid_t child, const Interrupt& interrupt, ProgramResult& result) {
     ::kill(child, SIGKILL);
   }
   result.seconds = secondsSince(countedFrom);
+  result.cpuSeconds = cpuSecondsOf(usage);
   result.peakBytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
   return status;
 }
 
 } // namespace
+
+double cpuSecondsOf(const rusage& usage) {
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
 
 ProgramResult runBrickfield(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                             const Interrupt& interrupt) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/resource.h>
+
 namespace brickfield::test {
 
 struct ProgramResult {
@@ -14,8 +16,14 @@ struct ProgramResult {
   std::string output;   ///< stdout
   std::string messages; ///< stderr
   double seconds = 0;   ///< after an interrupt: from there to the end
+  /// Of all threads, user and system together: whatever else the machine does meanwhile. No less than `seconds` on an
+  /// idle machine, unless the program waits.
+  double cpuSeconds = 0;
   std::uint64_t peakBytes = 0;
 };
+
+/// User and system time of a process.
+double cpuSecondsOf(const rusage& usage);
 
 /// A signal that is sent while the program works.
 struct Interrupt {

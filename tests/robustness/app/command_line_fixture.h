@@ -10,7 +10,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include "app/command_line.h"
 #include "core/files.h"
@@ -74,6 +73,8 @@ protected:
   /// the tests that do start it prove that the exit code comes through.
   static ProgramResult runHere(const std::vector<std::string>& arguments) {
     ProgramResult result;
+    struct rusage before {};
+    ::getrusage(RUSAGE_SELF, &before);
     const auto start = std::chrono::steady_clock::now();
     ::testing::internal::CaptureStderr();
     result.exitCode = runCommandLine(arguments);
@@ -81,6 +82,7 @@ protected:
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     struct rusage usage {};
     ::getrusage(RUSAGE_SELF, &usage);
+    result.cpuSeconds = cpuSecondsOf(usage) - cpuSecondsOf(before);
     result.peakBytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // of all until now
     return result;
   }

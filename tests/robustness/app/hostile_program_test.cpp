@@ -13,7 +13,12 @@ namespace {
 
 /// The process alone, with its libraries and a driver, takes about 135 MiB, with a frame on llvmpipe about 265 MiB.
 constexpr std::uint64_t kMemoryAllowed = std::uint64_t{1} << 30;
-constexpr double kSecondsAllowed = 10.0;
+/// Processor time: what else the machine does meanwhile is no fault of the program. Threads that work side by side only
+/// make it stricter.
+constexpr double kCpuSecondsAllowed = 10.0;
+/// Against waiting for what never comes, which takes no processor time; room for a machine that is busy five times
+/// over.
+constexpr double kSecondsAllowed = 60.0;
 
 std::vector<fs::path> hostileScenes() {
   std::vector<fs::path> files;
@@ -27,12 +32,14 @@ class HostileProgram : public CommandLine {
 protected:
   void TearDown() override {
     CommandLine::TearDown();
-    std::printf("%d runs, %d done, slowest %.2f s (%s), largest %.0f MiB (%s)\n", runs_, done_, slowest_.seconds,
-                slowestName_.c_str(), static_cast<double>(largest_.peakBytes) / (1 << 20), largestName_.c_str());
+    std::printf("%d runs, %d done, slowest %.2f s of processor time (%s), largest %.0f MiB (%s)\n", runs_, done_,
+                slowest_.cpuSeconds, slowestName_.c_str(), static_cast<double>(largest_.peakBytes) / (1 << 20),
+                largestName_.c_str());
   }
 
   void expectDoneOrRefused(const ProgramResult& result, const std::string& name) {
     SCOPED_TRACE(name);
+    EXPECT_LT(result.cpuSeconds, kCpuSecondsAllowed);
     EXPECT_LT(result.seconds, kSecondsAllowed);
     EXPECT_LT(result.peakBytes, kMemoryAllowed);
     std::istringstream lines(result.messages);
@@ -55,7 +62,7 @@ private:
   void count(const ProgramResult& result, const std::string& name) {
     ++runs_;
     done_ += result.exitCode == 0;
-    if (result.seconds > slowest_.seconds) slowest_ = result, slowestName_ = name;
+    if (result.cpuSeconds > slowest_.cpuSeconds) slowest_ = result, slowestName_ = name;
     if (result.peakBytes > largest_.peakBytes) largest_ = result, largestName_ = name;
   }
 
