@@ -12,6 +12,7 @@
 #include "bakers/level_baker.h"
 #include "bakers/mask_cut.h"
 #include "bakers/sheets.h"
+#include "bakers/thin_parts.h"
 #include "core/error.h"
 
 namespace brickfield {
@@ -32,7 +33,7 @@ void checkSettings(const BakeSettings& settings) {
   const auto refuse = [](const char* name, auto value, const char* reason) {
     throw BadInput(name, fmt::format("{}", value), reason);
   };
-  if (settings.resolution < 8 || settings.resolution > 1024)
+  if (settings.resolution < 8 || settings.resolution > kMostResolution)
     refuse("resolution", settings.resolution, "must be from 8 to 1024");
   if (settings.bits != 8 && settings.bits != 16) refuse("bits", settings.bits, "must be 8 or 16");
   if (settings.mips < 1 || settings.mips > 4) refuse("mips", settings.mips, "must be from 1 to 4");
@@ -84,6 +85,7 @@ public:
     result.field.boundsObject = layout.boundsObject;
     result.field.originObject = layout.originObject;
     result.field.sourceHash = bakeHash(input_, settings_);
+    if (inside_) result.field.thinParts = thinParts(layout.levels.front().voxelSizeObject);
     std::optional<AttributeBaker> attributes;
     if (settings_.attributes) attributes.emplace(input_, soup_);
     for (std::size_t i = 0; i < layout.levels.size(); ++i)
@@ -212,6 +214,11 @@ private:
     } catch (const BadInput& error) {
       throw BadInput(input_.label, "", error.what());
     }
+  }
+
+  ThinParts thinParts(double voxelMetres) const {
+    return findThinParts(
+        {&soup_, &topology_, &*surfaces_.solid, &*inside_, voxelMetres * soup_.unitsPerMetre, settings_.resolution});
   }
 
   BrickLevel bakeOneLevel(const GridLayout& layout, std::size_t index, const AttributeBaker* attributes) const {

@@ -32,6 +32,8 @@ struct BakeSettings {
   int threads = 0; ///< 0: all
 };
 
+inline constexpr int kMostResolution = 1024;
+
 /// What is baked: the primitives of one mesh as they stand in object space (deformed ones: as posed).
 struct BakeInput {
   std::string label; ///< for messages and progress

@@ -11,6 +11,7 @@
 #include "app/options.h"
 #include "app/parse.h"
 #include "app/progress_bar.h"
+#include "app/scene_fields.h"
 #include "app/session.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -84,6 +85,9 @@ int bake(const BakeRequest& request) {
     result = bakeField(bakeInputOf(scene, instance), settings, bar.progress());
   }
   throwIfInterrupted();
+  const std::string label = nodeLabel(scene, instance.node);
+  if (const std::string warning = thinPartsWarning(label, result.field, settings.resolution); !warning.empty())
+    printWarning(warning);
   writeBricksFile(request.output, result.field);
   if (!request.stats.empty()) writeFile(request.stats, statsJson(request, settings, result).dump(2) + "\n");
   fmt::print("{}: {} triangles, {} bricks in {} levels, {:.2f} MiB, sign by {}, {:.2f} s\n", request.output.string(),

@@ -14,8 +14,8 @@ namespace brickfield {
 
 struct SceneFieldsResult {
   SceneFields fields;
-  std::vector<std::string>
-      warnings;          ///< a line for each node that stays a mesh, and why, and for each fault of the cache
+  std::vector<std::string> warnings; ///< a line for each node that stays a mesh, and why, for each fault of the cache,
+                                     ///< and for each field with parts too thin for its voxels
   std::size_t baked = 0; ///< fields that were not in the cache
 };
 
@@ -26,5 +26,8 @@ struct SceneFieldsResult {
 SceneFieldsResult bakeSceneFields(const Scene& scene, const Pose& pose,
                                   const std::vector<std::optional<BakeSettings>>& settingsOfNode,
                                   const std::filesystem::path& cacheFolder, const Progress& progress);
+
+/// One line on what `label` loses at this resolution, and which voxels would show it; empty where that is little.
+std::string thinPartsWarning(const std::string& label, const BrickField& field, int resolution);
 
 } // namespace brickfield

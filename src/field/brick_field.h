@@ -67,6 +67,15 @@ struct BrickLevel {
   }
 };
 
+/// Parts of closed solids that are thinner than a voxel of the finest level and so may be lost between the samples.
+struct ThinParts {
+  static constexpr std::uint16_t kWhole = 10000;
+  std::uint16_t perTenThousand = 0; ///< share of the closed surface that bounds them
+  std::uint16_t resolution = 0;     ///< voxels along the longest side that would show them; 0: the field's own do
+
+  bool operator==(const ThinParts&) const = default;
+};
+
 /// The field of one object; levels finest first, each with twice the voxel of the one before. The coarsest level has
 /// every brick and a range that clamps nothing.
 struct BrickField {
@@ -74,6 +83,7 @@ struct BrickField {
   glm::vec3 originObject{0}; ///< sample 0 of every level
   std::vector<BrickLevel> levels;
   Hash128 sourceHash; ///< of mesh and settings, see bakers/bake_cache.h
+  ThinParts thinParts;
 };
 
 /// SNORM code of a distance in units of the range, and back. Zero is never made of a negative distance: the code -1 is

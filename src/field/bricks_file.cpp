@@ -101,6 +101,7 @@ std::vector<std::byte> encodeBricks(const BrickField& field) {
   index.boundsObject = field.boundsObject;
   index.originObject = field.originObject;
   index.sourceHash = field.sourceHash;
+  index.thinParts = field.thinParts;
   const std::unique_ptr<ZSTD_CCtx, std::size_t (*)(ZSTD_CCtx*)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
   if (!context) throw Failure("zstd: out of memory");
 
@@ -129,6 +130,7 @@ BrickField decodeBricks(std::span<const std::byte> bytes, const std::string& nam
   field.boundsObject = index.boundsObject;
   field.originObject = index.originObject;
   field.sourceHash = index.sourceHash;
+  field.thinParts = index.thinParts;
   field.levels.resize(index.levels.size());
   for (std::size_t i = 0; i < index.levels.size(); ++i) {
     const std::size_t levelIndex = index.levels.size() - 1 - i;

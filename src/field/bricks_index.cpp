@@ -206,7 +206,8 @@ std::vector<std::byte> encodeBricksIndex(const BricksIndex& index) {
   writer.put(index.boundsObject.min);
   writer.put(index.boundsObject.max);
   writer.put(index.originObject);
-  writer.put(std::uint32_t{0});
+  writer.put(index.thinParts.perTenThousand);
+  writer.put(index.thinParts.resolution);
   for (const LevelEntry& level : index.levels) putLevel(writer, level);
   writer.put(hash64(writer.bytes()));
   return writer.take();
@@ -239,7 +240,8 @@ BricksIndex decodeBricksIndex(std::span<const std::byte> file, const std::string
   reader.get(index.boundsObject.min);
   reader.get(index.boundsObject.max);
   reader.get(index.originObject);
-  if (reader.get<std::uint32_t>() != 0) throw BadInput(name, "header", "reserved bytes are not zero");
+  reader.get(index.thinParts.perTenThousand);
+  reader.get(index.thinParts.resolution);
   for (std::uint32_t i = 0; i < levelCount; ++i)
     index.levels.push_back(getLevel(reader, name, fmt::format("level {}", levelCount - 1 - i)));
   checkChunks(index, name);

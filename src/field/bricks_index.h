@@ -8,7 +8,7 @@
 //       24     16  source hash, high and low
 //       40     24  bounds, min and max
 //       64     12  origin
-//       76      4  zero
+//       76      4  thin parts: ten-thousandths of the surface (2), resolution that would do (2)
 //       80  152 L  levels, coarsest first:
 //                    +0  voxel size (4), brick counts (12), range (4), format (4), brick count (4), attribute bits (4)
 //                   +32  five chunks of 24: offset (8), compressed bytes (8), checksum (8); zeros where it is absent
@@ -58,6 +58,7 @@ struct BricksIndex {
   Box boundsObject;
   glm::vec3 originObject{0};
   Hash128 sourceHash;
+  ThinParts thinParts;
   std::vector<LevelEntry> levels; ///< coarsest first, as in the file
   std::uint64_t fileBytes = 0;
 };

@@ -103,6 +103,9 @@ std::string validateField(const BrickField& field) {
   if (!isFinite(field.boundsObject.min) || !isFinite(field.boundsObject.max) || field.boundsObject.isEmpty())
     return "the bounds are empty or not finite";
   if (!isFinite(field.originObject)) return "the origin is not finite";
+  if (field.thinParts.perTenThousand > ThinParts::kWhole)
+    return fmt::format("thin parts of {} ten-thousandths are more than all of the surface",
+                       field.thinParts.perTenThousand);
   for (std::size_t i = 0; i < field.levels.size(); ++i)
     if (const std::string wrong = validateLevel(field, i); !wrong.empty()) return fmt::format("level {}: {}", i, wrong);
   if (fieldBytes(field) > kMaxFieldBytes)

@@ -1,4 +1,5 @@
 // The program against wrong input of every kind: exit code 2, one line that names what is wrong, nothing written.
+#include <cstring>
 #include <fstream>
 
 #include <sys/stat.h>
@@ -249,6 +250,33 @@ TEST_F(CommandLine, ListOfCamerasSaysNothingOfMeshes) {
   EXPECT_EQ(result.exitCode, 0);
   EXPECT_EQ(result.messages, "");
   EXPECT_THAT(result.output, HasSubstr("--camera auto"));
+}
+
+TEST_F(CommandLine, PartsTooThinForTheirVoxelsAreNamedInOneLine) {
+  // The boxes of 2 m, pressed to 2 cm; a voxel is 1/8 m.
+  nlohmann::json scene = nlohmann::json::parse(std::ifstream(folder_ / "scene.gltf"));
+  scene["accessors"][0]["min"][2] = -0.01f;
+  scene["accessors"][0]["max"][2] = 0.01f;
+  writeFile(folder_ / "scene.gltf", scene.dump());
+  std::vector<std::byte> bytes = readFile(folder_ / "scene.bin");
+  for (std::size_t vertex = 0; vertex < 8; ++vertex) {
+    const float z = vertex < 4 ? -0.01f : 0.01f;
+    std::memcpy(bytes.data() + 12 * vertex + 8, &z, sizeof z);
+  }
+  writeFile(folder_ / "scene.bin", bytes);
+  const auto expectOneLine = [](const ProgramResult& result) {
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_THAT(result.messages, ::testing::StartsWith("brickfield: warning: node 0 \"Left\": 98 % of its closed"));
+    EXPECT_THAT(result.messages, HasSubstr("thinner than a voxel of 0.12 m"));
+    EXPECT_THAT(result.messages, HasSubstr("(--resolution 1"));
+    EXPECT_EQ(std::count(result.messages.begin(), result.messages.end(), '\n'), 1) << result.messages;
+  };
+  expectOneLine(run({"bake", "scene.gltf", "--node", "Left", "--resolution", "16", "-o", "a.bricks"}));
+  const std::vector<std::string> render{"render", "scene.gltf", "-o",           "a.png", "--size",  "32x18",
+                                        "--sdf",  "all",        "--resolution", "16",    "--cache", "cache"};
+  expectOneLine(run(render)); // both nodes share the mesh
+  expectOneLine(run(render)); // from the cache
+  EXPECT_EQ(run({"bake", "scene.gltf", "--node", "Left", "--resolution", "150", "-o", "a.bricks"}).messages, "");
 }
 
 TEST_F(CommandLine, FullDeviceIsNoSuccess) {

@@ -34,7 +34,7 @@ using namespace test;
 using Bytes = std::vector<std::byte>;
 
 // Header with index of one level as bricks_index.h draws them.
-constexpr std::size_t kFileBytesAt = 16, kReservedAt = 76, kLevelAt = 80, kCountsAt = kLevelAt + 4,
+constexpr std::size_t kFileBytesAt = 16, kThinPartsAt = 76, kLevelAt = 80, kCountsAt = kLevelAt + 4,
                       kBrickCountAt = kLevelAt + 24, kAttributesAt = kLevelAt + 28, kChunksAt = kLevelAt + 32,
                       kChunkBytes = 24;
 
@@ -192,7 +192,7 @@ TEST(BricksFileHostile, NeitherCanTwoHundredBytes) {
 
 TEST(BricksFileHostile, AnyHeaderFieldMayHoldAnything) {
   // Every aligned word of header and index takes hostile values under a correct checksum. Some are harmless (the source
-  // hash, the range); the others must be refused, and none may take much memory or crash.
+  // hash, thin parts, the range); the others must be refused, and none may take much memory or crash.
   const std::uint32_t values[] = {0u,          1u,          2u,          0x7fu,       0xffffu,
                                   0x10000u,    0x7fffffffu, 0x80000000u, 0xffffffffu, 0x7f800000u,
                                   0xff800000u, 0x7fc00000u, 0x00000001u, 0x7f7fffffu, 0x3f800000u};
@@ -205,11 +205,12 @@ TEST(BricksFileHostile, AnyHeaderFieldMayHoldAnything) {
       correctIndexChecksum(bytes, 1);
       std::string message;
       ASSERT_LT(allocationOf(bytes, message), std::size_t{16} << 20) << at;
-      const bool isHash = at >= 24 && at < 40, isShape = at >= 40 && at < kReservedAt,
-                 isFloat = at == kLevelAt || at == kLevelAt + 16;
+      const bool isHash = at >= 24 && at < 40, isShape = at >= 40 && at < kThinPartsAt,
+                 isThinParts = at == kThinPartsAt, isFloat = at == kLevelAt || at == kLevelAt + 16;
       if (message.empty()) {
         ++accepted;
-        ASSERT_TRUE(isHash || isShape || isFloat) << "word at " << at << " with " << value << " went unnoticed";
+        ASSERT_TRUE(isHash || isShape || isThinParts || isFloat)
+            << "word at " << at << " with " << value << " went unnoticed";
       } else {
         ++refused;
         ASSERT_EQ(message.rfind("hostile.bricks: ", 0), 0u) << message;
