@@ -85,7 +85,7 @@ public:
     result.field.boundsObject = layout.boundsObject;
     result.field.originObject = layout.originObject;
     result.field.sourceHash = bakeHash(input_, settings_);
-    if (inside_) result.field.thinParts = thinParts(layout.levels.front().voxelSizeObject);
+    if (thickness_) result.field.thinParts = thinPartsAt(layout.levels.front());
     std::optional<AttributeBaker> attributes;
     if (settings_.attributes) attributes.emplace(input_, soup_);
     for (std::size_t i = 0; i < layout.levels.size(); ++i)
@@ -138,6 +138,7 @@ private:
     if (split.solid.empty()) return;
     surfaces_.solid.emplace(solidHierarchy_.emplace(soup_, std::move(split.solid)));
     inside_.emplace(soup_, topology_, *solidHierarchy_, settings_.sign, input_.label);
+    thickness_.emplace(soup_, topology_, *surfaces_.solid, *inside_);
   }
 
   /// Slabs as thin as can be shown lie behind their fronts where those can be told: a thickness that was asked for is
@@ -216,9 +217,8 @@ private:
     }
   }
 
-  ThinParts thinParts(double voxelMetres) const {
-    return findThinParts(
-        {&soup_, &topology_, &*surfaces_.solid, &*inside_, voxelMetres * soup_.unitsPerMetre, settings_.resolution});
+  ThinParts thinPartsAt(const LevelLayout& level) const {
+    return findThinParts(*thickness_, level.voxelSizeObject * soup_.unitsPerMetre, settings_.resolution);
   }
 
   BrickLevel bakeOneLevel(const GridLayout& layout, std::size_t index, const AttributeBaker* attributes) const {
@@ -236,6 +236,10 @@ private:
     sampling.grid = {soup_.soupFromObject(layout.originObject), voxelMetres * soup_.unitsPerMetre,
                      request.layout.brickCounts};
     sampling.halfThickness = halfThicknessMetres(voxelMetres) * soup_.unitsPerMetre;
+    if (settings_.sign == SignMethod::Auto && thickness_ && thinPartsAt(request.layout).resolution > 0) {
+      request.thickness = &*thickness_;
+      sampling.solidGrowthVoxels = kMostGrowthVoxels;
+    }
     sampling.isComplete = index + 1 == layout.levels.size();
     sampling.admit = [&](std::size_t bricks) {
       admitMemory(bricks, index);
@@ -284,6 +288,7 @@ private:
   std::optional<MeshHierarchy> solidHierarchy_, sheetHierarchy_;
   BakeSurfaces surfaces_;
   std::optional<InsideTest> inside_;
+  std::optional<SolidThickness> thickness_;
   std::vector<std::uint32_t> sheets_;
   std::size_t sheetCount_ = 0;
 };

@@ -8,6 +8,7 @@
 
 #include "bakers/membranes.h"
 #include "bakers/patch_graph.h"
+#include "bakers/thin_parts.h"
 
 namespace brickfield {
 
@@ -27,7 +28,9 @@ struct SignedSamples {
   std::vector<std::uint8_t> isSheet; ///< 1 where the distance is a slab's
 };
 
-SignedSamples combine(LevelSamples& level, const std::vector<std::uint8_t>& sampleInside) {
+/// growth  a sample, in voxels: how far solids are moved outwards; empty: nowhere
+SignedSamples combine(LevelSamples& level, const std::vector<std::uint8_t>& sampleInside,
+                      const std::vector<float>& growth) {
   const std::size_t count = std::max(level.solidDistances.size(), level.sheetDistances.size());
   if (level.solidDistances.empty())
     return {std::move(level.sheetDistances), std::move(level.sheetTriangles), std::vector<std::uint8_t>(count, 1)};
@@ -35,6 +38,7 @@ SignedSamples combine(LevelSamples& level, const std::vector<std::uint8_t>& samp
                        std::vector<std::uint8_t>(count, 0)};
   for (std::size_t i = 0; i < result.distances.size(); ++i) {
     if (sampleInside[i]) result.distances[i] = -result.distances[i];
+    if (!growth.empty()) result.distances[i] -= growth[i];
     if (level.sheetDistances.empty() || level.sheetDistances[i] >= result.distances[i]) continue;
     result.distances[i] = level.sheetDistances[i];
     result.triangles[i] = level.sheetTriangles[i];
@@ -162,7 +166,9 @@ BrickLevel bakeLevel(const LevelBakeRequest& request) {
     signs = floodSigns(samples, *request.inside);
     insertMembranes(request.sampling, *request.inside, samples, signs);
   }
-  const SignedSamples signedSamples = combine(samples, signs.sampleInside);
+  std::vector<float> growth;
+  if (request.thickness) growth = growThinSolids(*request.thickness, request.sampling, samples);
+  const SignedSamples signedSamples = combine(samples, signs.sampleInside, growth);
 
   const bool isComplete = request.sampling.isComplete;
   float range = kNarrowBandVoxels;

@@ -3,6 +3,7 @@
 
 #include "bakers/attribute_baker.h"
 #include "bakers/sign_flood.h"
+#include "bakers/solid_thickness.h"
 
 namespace brickfield {
 
@@ -11,6 +12,7 @@ struct LevelBakeRequest {
   DistanceFormat format = DistanceFormat::R8Snorm; ///< complete levels are R16 whatever it says
   SamplingRequest sampling;
   const InsideTest* inside = nullptr;         ///< nothing where no triangle is solid
+  const SolidThickness* thickness = nullptr;  ///< grows thin solids; nothing: they are as they are
   const AttributeBaker* attributes = nullptr; ///< nothing: the level gets none
 };
 

@@ -36,7 +36,7 @@ PointBound boundAt(const SamplingRequest& request, glm::dvec3 point, Hints& hint
   if (request.surfaces->solid) {
     const ClosestTriangle closest = request.surfaces->solid->closest(point, HUGE_VAL, hints.solid);
     hints.solid = closest.triangle;
-    bound.voxels = closest.distance / request.grid.voxelSize;
+    bound.voxels = std::max(0.0, closest.distance / request.grid.voxelSize - request.solidGrowthVoxels);
   }
   if (request.surfaces->sheets) {
     const ClosestTriangle closest = request.surfaces->sheets->closest(point, HUGE_VAL, hints.sheet);
@@ -124,7 +124,8 @@ struct SurfaceSampler {
 float leastDistance(const SamplingRequest& request, const BrickSamples& samples) {
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < kSamples; ++i) {
-    if (request.surfaces->solid) least = std::min(least, samples.solidDistances[i]);
+    if (request.surfaces->solid)
+      least = std::min(least, samples.solidDistances[i] - static_cast<float>(request.solidGrowthVoxels));
     if (request.surfaces->sheets) least = std::min(least, std::abs(samples.sheetDistances[i]));
   }
   return least;

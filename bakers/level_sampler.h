@@ -69,8 +69,9 @@ struct SamplingRequest {
   const TriangleSoup* soup = nullptr;
   const BakeSurfaces* surfaces = nullptr;
   SampleGrid grid;
-  double halfThickness = 0; ///< soup space
-  bool isComplete = false;  ///< every cell becomes a brick, no distance is capped: the coarsest level
+  double halfThickness = 0;     ///< soup space
+  double solidGrowthVoxels = 0; ///< at most so far will solids be moved outwards (thin_parts.h)
+  bool isComplete = false;      ///< every cell becomes a brick, no distance is capped: the coarsest level
   std::function<void(std::size_t bricks)> admit; ///< asked before memory for so many bricks is taken; may throw
   std::function<void(std::size_t bricks)> done;  ///< called from any thread as bricks are finished; may throw
 };

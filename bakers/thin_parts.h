@@ -1,37 +1,39 @@
-// What a bake loses: parts of closed solids that are thinner than a voxel fall between the samples. Measured at places
-// spread evenly over the surface, by walking from each into the solid until it ends.
+// Parts of closed solids that are thinner than a voxel and would fall between the samples: how much there is of them,
+// and how far each sample's surface is moved out so that nothing is lost.
 //
-//   surface  ----p----------------   first look half a voxel behind: a ball that
-//                |                   touches nothing but p holds the whole walk
-//                v  s = 1/64 .. 1 voxel, each sqrt(2) times the one before
-//   opposite ---------------------   the last s that is still inside is the thickness
+//   solid         ------------   thickness T       grown    ------------  (1.125 voxels - T) / 2 farther out
+//                 ------------                              ============  the solid
+//                                                           ------------
 #pragma once
 
-#include "bakers/inside_test.h"
-#include "bakers/mesh_distance.h"
+#include "bakers/level_sampler.h"
+#include "bakers/solid_thickness.h"
 #include "field/brick_field.h"
 
 namespace brickfield {
 
-struct ThinPartsRequest {
-  const TriangleSoup* soup = nullptr;
-  const MeshTopology* topology = nullptr;
-  const MeshDistance* solid = nullptr; ///< of all solid triangles, among them those of closed components
-  const InsideTest* inside = nullptr;
-  double voxelSize = 0; ///< soup space, of the finest level
-  int resolution = 0;   ///< that gives such voxels
-};
+/// Less is the rims of sharp edges and tips.
+inline constexpr double kThinShareAllowed = 0.01;
+/// What every solid is drawn as at least, as thin as a slab of sheets: less could fall between two samples.
+inline constexpr double kLeastSolidVoxels = 1.125;
+inline constexpr double kMostGrowthVoxels = 0.5 * kLeastSolidVoxels;
 
 /// Share of the closed solid surface behind which the solid ends within a voxel, and the resolution at which no more
 /// than kThinShareAllowed of it would. Sheets do not count: their slabs are never lost.
 ///
-/// returns   to the accuracy of 4096 places (0.5 % at most); thickness by a factor of sqrt(2), never over
-/// cost      4096 times two signs and a distance, and up to thirteen signs where something is near; all threads, the
-///           same result on any number
-/// proved by tests/bake/bakers/thin_parts_test.cpp
-ThinParts findThinParts(const ThinPartsRequest& request);
+/// voxelSize  soup space
+/// resolution that gives such voxels
+/// returns    to the accuracy of 4096 places, 0.5 % at most
+/// cost       4096 thicknesses; all threads, the same result on any number
+/// proved by  tests/bake/bakers/thin_parts_test.cpp
+ThinParts findThinParts(const SolidThickness& thickness, double voxelSize, int resolution);
 
-/// Less is the rims of sharp edges and tips.
-inline constexpr double kThinShareAllowed = 0.01;
+/// How far, in voxels, the surface that is closest to each sample of a level is moved outwards: continuous in the
+/// thickness, nothing from kLeastSolidVoxels on, for open solids and far from the surface.
+///
+/// cost      a thickness for each sample within three voxels of closed solids; all threads
+/// proved by tests/bake/bakers/thin_parts_test.cpp
+std::vector<float> growThinSolids(const SolidThickness& thickness, const SamplingRequest& request,
+                                  const LevelSamples& level);
 
 } // namespace brickfield

@@ -86,7 +86,7 @@ int bake(const BakeRequest& request) {
   }
   throwIfInterrupted();
   const std::string label = nodeLabel(scene, instance.node);
-  if (const std::string warning = thinPartsWarning(label, result.field, settings.resolution); !warning.empty())
+  if (const std::string warning = thinPartsWarning(label, result.field, settings); !warning.empty())
     printWarning(warning);
   writeBricksFile(request.output, result.field);
   if (!request.stats.empty()) writeFile(request.stats, statsJson(request, settings, result).dump(2) + "\n");

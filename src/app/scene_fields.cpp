@@ -24,17 +24,18 @@ bool hasArea(const BakeInput& input) {
 }
 } // namespace
 
-std::string thinPartsWarning(const std::string& label, const BrickField& field, int resolution) {
+std::string thinPartsWarning(const std::string& label, const BrickField& field, const BakeSettings& settings) {
   const ThinParts& thin = field.thinParts;
   if (thin.resolution == 0) return {};
   const double voxelMetres = field.levels.front().voxelSizeObject;
   const std::string remedy = thin.resolution <= kMostResolution
                                  ? fmt::format("(--resolution {})", thin.resolution)
                                  : fmt::format("(more than --resolution {})", kMostResolution);
-  return fmt::format("{}: {:.0f} % of its closed surface bounds parts thinner than a voxel of {:.2g} m, which may have "
-                     "holes; voxels of {:.2g} m would do {}",
+  return fmt::format("{}: {:.0f} % of its closed surface bounds parts thinner than a voxel of {:.2g} m, which {}; "
+                     "voxels of {:.2g} m would do {}",
                      label, 100.0 * thin.perTenThousand / ThinParts::kWhole, voxelMetres,
-                     voxelMetres * resolution / thin.resolution, remedy);
+                     settings.sign == SignMethod::Auto ? "are drawn that thick" : "may have holes",
+                     voxelMetres * settings.resolution / thin.resolution, remedy);
 }
 
 SceneFieldsResult bakeSceneFields(const Scene& scene, const Pose& pose,
@@ -67,8 +68,7 @@ SceneFieldsResult bakeSceneFields(const Scene& scene, const Pose& pose,
       if (!baked.cacheWarning.empty() &&
           std::find(warnings.begin(), warnings.end(), baked.cacheWarning) == warnings.end())
         warnings.push_back(std::move(baked.cacheWarning));
-      if (std::string warning = thinPartsWarning(input.label, baked.field, settingsOfNode[node]->resolution);
-          !warning.empty())
+      if (std::string warning = thinPartsWarning(input.label, baked.field, *settingsOfNode[node]); !warning.empty())
         warnings.push_back(std::move(warning));
       result.fields.fields.push_back(std::move(baked.field));
       if (!wasCached) ++result.baked;

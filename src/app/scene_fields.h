@@ -16,7 +16,7 @@ struct SceneFieldsResult {
   SceneFields fields;
   std::vector<std::string> warnings; ///< a line for each node that stays a mesh, and why, for each fault of the cache,
                                      ///< and for each field with parts too thin for its voxels
-  std::size_t baked = 0; ///< fields that were not in the cache
+  std::size_t baked = 0;             ///< fields that were not in the cache
 };
 
 /// settingsOfNode  as sdfNodes() gives them: nothing where a node is drawn as a mesh
@@ -28,6 +28,6 @@ SceneFieldsResult bakeSceneFields(const Scene& scene, const Pose& pose,
                                   const std::filesystem::path& cacheFolder, const Progress& progress);
 
 /// One line on what `label` loses at this resolution, and which voxels would show it; empty where that is little.
-std::string thinPartsWarning(const std::string& label, const BrickField& field, int resolution);
+std::string thinPartsWarning(const std::string& label, const BrickField& field, const BakeSettings& settings);
 
 } // namespace brickfield
