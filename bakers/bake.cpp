@@ -23,9 +23,9 @@ namespace {
 // the 8-bit code are left below zero.
 constexpr double kLeastHalfThicknessVoxels = 0.5625;
 // A double-sided shell of smaller triangles is taken for the skin of something that is seen from outside. Larger ones
-// are walls: what they stand around is a room, and their slabs lie on its outer side; flat ones stand around nothing.
+// are walls: what they stand around is a room, and their slabs lie on its outer side. Flat ones stand around nothing,
+// but those at the border of a scene are seen from it, whichever way they face.
 constexpr double kFineTriangleVoxels = 16;
-constexpr double kFlatShare = 0.95; // of the area that is left when area vectors are added up
 constexpr std::uint64_t kMostBytes = kMaxFieldBytes;
 constexpr std::uint64_t kReportEveryBricks = 32;
 
@@ -158,9 +158,11 @@ private:
       const ComponentShape& shape = shapes[topology_.componentOf[t]];
       const bool isWall = material.doubleSided && shape.area > fineArea * static_cast<double>(shape.triangleCount);
       request.isDoubleSided[t] = material.doubleSided;
-      request.isTurned[t] = isWall && shape.outwardness() > 0;
+      const bool isSeen = material.doubleSided && shape.isFlat() && input_.seenFromObject != glm::vec3(0);
+      request.isTurned[t] = isSeen ? glm::dot(shape.areaVector, glm::dvec3(input_.seenFromObject)) < 0
+                                   : isWall && shape.outwardness() > 0;
       request.mayLieBehind[t] = !topology_.isFlatPair[t] && !topology_.isTwisted[t] &&
-                                material.alphaMode == AlphaMode::Opaque && !(isWall && shape.isFlat());
+                                material.alphaMode == AlphaMode::Opaque && (isSeen || !(isWall && shape.isFlat()));
     }
     return request;
   }

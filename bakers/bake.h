@@ -41,10 +41,21 @@ struct BakeInput {
   const Scene* scene = nullptr;
   std::vector<const Primitive*> primitives;
   std::vector<std::vector<glm::vec3>> positionsObject; ///< one array a primitive
+  /// Of a flat double-sided mesh at the border of its scene, as floors are: the side of it on which the scene lies and
+  /// from which it is looked at. Unit; zero: not known.
+  glm::vec3 seenFromObject{0};
 };
+
+/// A mesh counts as flat where so much of its area is left when area vectors are added up.
+inline constexpr double kFlatShare = 0.95;
 
 /// The mesh of a posed instance in its object space.
 BakeInput bakeInputOf(const Scene& scene, const PosedInstance& instance);
+/// The same with seenFromObject, by everything in the pose that the instance belongs to.
+///
+/// cost      of flat double-sided meshes: a look at every vertex of the pose's meshes
+/// proved by tests/bake/bakers/scene_side_test.cpp
+BakeInput bakeInputOf(const Scene& scene, const PosedInstance& instance, const Pose& pose);
 
 struct BakeStats {
   std::uint64_t triangles = 0;

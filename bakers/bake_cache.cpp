@@ -15,7 +15,7 @@ namespace brickfield {
 
 namespace {
 
-constexpr std::uint32_t kBakerVersion = 9; // raise it whenever the same input gives other bytes
+constexpr std::uint32_t kBakerVersion = 10; // raise it whenever the same input gives other bytes
 
 void addTexture(Hasher& hasher, const Scene& scene, const TextureSlot& slot) {
   hasher.add(slot.texture);
@@ -88,6 +88,7 @@ Hash128 bakeHash(const BakeInput& input, const BakeSettings& settings) {
   Hasher hasher;
   hasher.add(kBakerVersion).add(settings.resolution).add(settings.bits).add(settings.mips).add(settings.sign);
   hasher.add(settings.thickness).add(settings.attributes);
+  for (int i = 0; i < 3; ++i) hasher.add(input.seenFromObject[i]);
   for (std::size_t i = 0; i < input.primitives.size(); ++i) {
     const Primitive& primitive = *input.primitives[i];
     hasher.addArray(primitive.indices).addArray(input.positionsObject[i]);

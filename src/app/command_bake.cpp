@@ -82,7 +82,7 @@ int bake(const BakeRequest& request) {
   BakeResult result;
   {
     ProgressBar bar;
-    result = bakeField(bakeInputOf(scene, instance), settings, bar.progress());
+    result = bakeField(bakeInputOf(scene, instance, pose), settings, bar.progress());
   }
   throwIfInterrupted();
   const std::string label = nodeLabel(scene, instance.node);

@@ -49,7 +49,7 @@ SceneFieldsResult bakeSceneFields(const Scene& scene, const Pose& pose,
     const std::size_t node = static_cast<std::size_t>(instance.node);
     if (done[node] || !settingsOfNode[node]) continue;
     done[node] = true;
-    const BakeInput input = bakeInputOf(scene, instance);
+    const BakeInput input = bakeInputOf(scene, instance, pose);
     if (glm::determinant(glm::mat3(instance.worldFromObject)) == 0.0f) {
       result.warnings.push_back(nodeLabel(scene, instance.node) + ": its transform flattens space, so it stays a mesh");
       continue;
