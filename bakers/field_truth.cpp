@@ -136,13 +136,15 @@ public:
 
   struct Nearest {
     double distance = std::numeric_limits<double>::infinity();
+    glm::dvec3 pointWorld{0};
     int node = -1;
   };
   Nearest nearest(glm::dvec3 point, double limit) const {
     if (!distance_) return {};
     const ClosestTriangle closest = distance_->closest(soup_.soupFromObject(point), limit * soup_.unitsPerMetre);
     if (closest.triangle == kNoTriangle) return {};
-    return {closest.distance / soup_.unitsPerMetre, nodes_[closest.triangle]};
+    return {closest.distance / soup_.unitsPerMetre, closest.on.point / soup_.unitsPerMetre + soup_.centerObject,
+            nodes_[closest.triangle]};
   }
   /// A part that faces inwards encloses what lies around it.
   bool hasInside(glm::dvec3 point) const {
@@ -215,6 +217,19 @@ FieldTruth FieldOracle::at(glm::dvec3 pointWorld) const {
     if (nearest.distance <= truth.openDistance) truth.node = nearest.node;
   }
   return truth;
+}
+
+bool FieldOracle::seesBuriedSurface(glm::dvec3 pointWorld, double reach, double behind) const {
+  const auto isHeld = [&](glm::dvec3 point) {
+    return std::any_of(parts_->closed.begin(), parts_->closed.end(),
+                       [&](const auto& part) { return part->hasInside(point); });
+  };
+  if (!isHeld(pointWorld)) return false;
+  return std::any_of(parts_->closed.begin(), parts_->closed.end(), [&](const auto& part) {
+    const Surface::Nearest nearest = part->nearest(pointWorld, reach);
+    if (nearest.node < 0 || nearest.distance == 0) return false;
+    return isHeld(nearest.pointWorld + behind / nearest.distance * (nearest.pointWorld - pointWorld));
+  });
 }
 
 std::vector<FieldTruth> FieldOracle::at(std::span<const glm::dvec3> pointsWorld) const {

@@ -41,6 +41,12 @@ public:
   ///            surface than that
   /// proved by  tests/oracle/support/field_truth_test.cpp
   FieldTruth at(glm::dvec3 pointWorld) const;
+  /// Whether parts, or folds of one, reach into each other near a point that a closed part holds: what lies right
+  /// behind the nearest place of some part is in one as well, so that no nearest surface can tell which side is out.
+  ///
+  /// reach   metres: places farther away do not count
+  /// behind  metres: how far behind them; less than any wall is thick
+  bool seesBuriedSurface(glm::dvec3 pointWorld, double reach, double behind) const;
   /// The same of many points, on all threads.
   std::vector<FieldTruth> at(std::span<const glm::dvec3> pointsWorld) const;
 

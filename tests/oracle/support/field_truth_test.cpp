@@ -93,6 +93,18 @@ TEST(FieldTruthTest, PartsThatReachIntoEachOtherSayBoth) {
   EXPECT_EQ(truth.node, 1);
 }
 
+// Of a small box in a large one the small one's surface is buried, and the large one's is not.
+TEST(FieldTruthTest, BuriedSurfacesAreThoseInsideOnBothSides) {
+  const Scene scene = sceneOf(makeBoxMesh(glm::vec3(1)), {glm::mat4(1), glm::scale(glm::mat4(1), glm::vec3(0.25f))});
+  const FieldOracle oracle(scene, poseScene(scene, {}));
+  const double behind = 0.01;
+  EXPECT_TRUE(oracle.seesBuriedSurface({0.375, 0, 0}, 0.2, behind)) << "between both, near the small one";
+  EXPECT_FALSE(oracle.seesBuriedSurface({0.375, 0, 0}, 0.1, behind)) << "too far from either";
+  EXPECT_TRUE(oracle.seesBuriedSurface({0.1, 0, 0}, 0.2, behind)) << "in both";
+  EXPECT_FALSE(oracle.seesBuriedSurface({0.9, 0, 0}, 0.2, behind)) << "near the large one";
+  EXPECT_FALSE(oracle.seesBuriedSurface({1.1, 0, 0}, 2.0, behind)) << "outside";
+}
+
 TEST(FieldTruthTest, NodesWithFieldsAreLeftOut) {
   const Scene scene = sceneOf(makeBoxMesh(glm::vec3(1)), {glm::mat4(1), glm::translate(glm::mat4(1), {10, 0, 0})});
   const FieldOracle oracle(scene, poseScene(scene, {}), {0, -1});
