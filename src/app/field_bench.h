@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/field_motion.h"
 #include "gpu/timer.h"
 #include "passes/frame_context.h"
 #include "passes/geometry/deform_pass.h"
@@ -18,37 +19,41 @@
 
 namespace brickfield {
 
-/// What moves while it is measured.
-enum class FieldMotion : std::uint8_t { Everything, Mover, Nothing };
-
-/// Median milliseconds of each pass over the frames, in the order of the frame, and what an update worked on.
+/// Medians over the frames, and what the last one worked on.
 struct FieldTimes {
-  std::vector<PassTime> passes;
-  double sumMilliseconds = 0; ///< median of the frames' sums
-  std::uint32_t keyTiles = 0, candidateTiles = 0, valueTiles = 0;
-  std::uint32_t gathered = 0; ///< triangles
-  std::size_t bytes = 0;
+  std::vector<PassTime> passes; ///< in the order of the frame
+  double sumMilliseconds = 0;   ///< of the passes, on the GPU
+  double planMilliseconds = 0;  ///< on the CPU: what moved, which tiles, uploads
+  struct Tiles {
+    std::uint32_t keys = 0, candidates = 0, values = 0;
+  } tiles;                    ///< of the exact field, made anew
+  std::uint32_t gathered = 0; ///< triangles that moved
+  std::uint32_t drawn = 0;    ///< triangles that may have left keys
+  std::uint32_t sdfObjects = 0;
+  std::size_t bytes = 0; ///< of GPU memory
+
+  double of(std::string_view pass) const; ///< milliseconds; 0: it was not recorded
 };
 
 class FieldBench {
 public:
-  /// scene  its last node is the mover; must outlive this
+  /// scene  must outlive this
   FieldBench(const ContextInfo& info, const Scene& scene, const SceneFields& fields);
 
-  FieldTimes timeExact(const FieldShape& shape, FieldMotion motion, int frames);
-  FieldTimes timeRtsdf(const RtsdfSettings& settings, FieldMotion motion, int frames);
-
-  std::uint32_t triangleCount() const { return triangles_.triangleCount(); }
+  /// The eye stands in the middle of the scene.
+  FieldTimes timeExact(const FieldShape& shape, const PoseOfFrame& poseOf, int frames);
+  /// Of triangles alone: SDF objects are not in it.
+  FieldTimes timeRtsdf(const RtsdfSettings& settings, const PoseOfFrame& poseOf, int frames);
 
 private:
-  /// The pose of a frame and whether everything counts as new in it.
-  Pose poseOf(FieldMotion motion, int frame) const;
+  /// record  of a frame's number; returns the milliseconds of its plan
   template <typename Record>
   FieldTimes timeFrames(int frames, const Record& record);
+  template <typename Record>
+  void timePass(const char* name, GLbitfield barriers, const Record& record);
   void gather();
 
   const Scene& scene_;
-  Pose rest_;
   ResidentScene resident_;
   WorldTriangles triangles_;
   SceneHierarchy hierarchy_;
@@ -68,9 +73,5 @@ private:
   RtsdfJumpFloodPass flood_;
   RtsdfRaysPass rays_;
 };
-
-/// A copy of the scene with one more node, "Mover", last: a torus of about 6,000 triangles, a twelfth of the scene's
-/// longest side across. What the published figures call a moving object.
-Scene withMover(const Scene& scene);
 
 } // namespace brickfield
