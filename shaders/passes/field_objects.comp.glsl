@@ -1,4 +1,7 @@
 // SDF objects join the field: the minimum of the meshes' value and the values of all objects that reach a tile.
+// Objects are taken nearest first, so that those behind are soon told to be farther; the order, and with it each bit,
+// is a function of the tile alone. Texels near an object search for its surface, then again from what their neighbours
+// found.
 #include "lib/field_grid.glsl"
 #include "lib/field_objects.glsl"
 
@@ -12,68 +15,136 @@ uniform uint listLength;
 
 const uint MOST_OBJECTS = 128u; // of one round
 const int TEXELS_OF_A_THREAD = int(FIELD_TILE_TEXELS) / 128;
+const float NO_POINT = -1.0;
 
-shared uint reaching[MOST_OBJECTS];
+shared uvec2 reaching[MOST_OBJECTS]; // distance from the tile, float bits; number
+shared uint nearestFirst[MOST_OBJECTS];
 shared uint reachingCount;
-shared uint farthestBits; // largest value in the tile, metres
+shared uint farthestBits;                     // largest value in the tile, metres
+shared vec4 surfacePoints[FIELD_TILE_TEXELS]; // of the object at hand, grid; w: distance, metres
+
+// Of the thread's texels.
+float metres[TEXELS_OF_A_THREAD];
+uint owners[TEXELS_OF_A_THREAD];
+ObjectDistance found[TEXELS_OF_A_THREAD];
+
+int texelOfThread(int i) { return i * 128 + int(gl_LocalInvocationIndex); }
+
+// Lists the objects of a round that may be nearer than `most` to a texel of the tile.
+void listObjects(uint first, vec3 tileCenter, float halfDiagonal, float most) {
+  uint thread = gl_LocalInvocationIndex, object = first + thread;
+  if (thread == 0u) reachingCount = 0u;
+  barrier();
+  if (object < field.counts.z) {
+    float least = max(boxDistance(sdfInstances[object], tileCenter) - halfDiagonal, 0.0);
+    if (least < most) reaching[atomicAdd(reachingCount, 1u)] = uvec2(floatBitsToUint(least), object);
+  }
+  barrier();
+  if (thread < reachingCount) {
+    uvec2 own = reaching[thread];
+    uint rank = 0u;
+    for (uint i = 0u; i < reachingCount; ++i) {
+      uvec2 other = reaching[i];
+      rank += uint(other.x < own.x || (other.x == own.x && other.y < own.y));
+    }
+    nearestFirst[rank] = own.y;
+  }
+  barrier();
+}
+
+// Each texel for itself.
+void findAlone(FieldObject object, ListedTile tile, FieldCascade cascade) {
+  for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) {
+    ivec3 lattice = tile.firstTexel + cubeIndex(texelOfThread(i), int(FIELD_TILE));
+    vec3 point = field.anchor.xyz + texelCenter(cascade, lattice);
+    surfacePoints[texelOfThread(i)].w = NO_POINT;
+    found[i].isSearched = false;
+    found[i].side = 1.0;
+    found[i].lower = found[i].upper = boxDistance(object.instance, point);
+    if (metres[i] > 0.0 && found[i].lower > metres[i]) continue;
+    found[i] = boundDistance(object, point, metres[i]);
+    if (!found[i].isSearched) continue;
+    searchSurface(object, found[i], found[i].surfaceGrid, MOST_STEPS, true);
+    surfacePoints[texelOfThread(i)] = vec4(found[i].surfaceGrid, found[i].upper);
+  }
+}
+
+// Once more from the surface point of that neighbour in the tile whose is nearest, where it is nearer than the own one:
+// between two surfaces, and around corners, not every texel finds the right one.
+void findFromNeighbours(FieldObject object) {
+  for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) {
+    float least = found[i].upper - 2.0 * ACCURATE_TEXELS * object.texelMetres;
+    if (!found[i].isSearched || least < found[i].lower) continue;
+    ivec3 at = cubeIndex(texelOfThread(i), int(FIELD_TILE));
+    vec3 start = vec3(0.0);
+    bool isNearer = false;
+    for (int side = 0; side < 6; ++side) {
+      ivec3 beside = at + ivec3(side >> 1 == 0, side >> 1 == 1, side >> 1 == 2) * ((side & 1) * 2 - 1);
+      if (any(lessThan(beside, ivec3(0))) || any(greaterThanEqual(beside, ivec3(FIELD_TILE)))) continue;
+      vec4 other = surfacePoints[indexInTile(beside, int(FIELD_TILE))];
+      float away = lengthWorld(object.instance, found[i].pointGrid - other.xyz);
+      if (other.w == NO_POINT || away >= least) continue;
+      least = away;
+      start = other.xyz;
+      isNearer = true;
+    }
+    if (isNearer) searchSurface(object, found[i], start, MOST_STEPS_FROM_NEIGHBOUR, false);
+  }
+}
+
+bool join(FieldObject object, float range) {
+  uint node = uint(object.instance.ids.x) + 1u;
+  bool isChanged = false;
+  for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) {
+    float distance = max(signedDistance(object, found[i]), -range);
+    uint meshInside = owners[i] & FIELD_NODE_INSIDE, owner = owners[i] & ~FIELD_NODE_INSIDE;
+    if (distance < metres[i] || (distance == metres[i] && distance < range && node < owner)) {
+      metres[i] = distance;
+      owners[i] = node | meshInside;
+      isChanged = true;
+    }
+  }
+  return isChanged;
+}
 
 void main() {
   uint index = listIndex();
   if (index >= listLength) return;
   ListedTile tile = listedTile(listed[index]);
   FieldCascade cascade = field.cascades[tile.cascade];
-  int thread = int(gl_LocalInvocationIndex);
-  float range = cascade.texel.z * cascade.texel.x;
-  if (thread == 0) farthestBits = 0u;
-  barrier();
-
-  float metres[TEXELS_OF_A_THREAD];
-  uint owners[TEXELS_OF_A_THREAD];
+  float texelMetres = cascade.texel.x;
   for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) {
-    ivec3 lattice = tile.firstTexel + cubeIndex(i * 128 + thread, int(FIELD_TILE));
-    metres[i] = imageLoad(distances[tile.cascade], lattice & (cascade.window.w - 1)).r * cascade.texel.x;
+    ivec3 lattice = tile.firstTexel + cubeIndex(texelOfThread(i), int(FIELD_TILE));
+    metres[i] = imageLoad(distances[tile.cascade], lattice & (cascade.window.w - 1)).r * texelMetres;
     owners[i] = nodes[texelWord(cascade, lattice)];
   }
   // In rounds; objects farther than the tile's largest value can change nothing.
-  vec3 tileCenter = field.anchor.xyz + (vec3(tile.firstTexel) + 0.5 * float(FIELD_TILE)) * cascade.texel.x;
-  float halfDiagonal = 0.8660255 * float(FIELD_TILE - 1u) * cascade.texel.x;
+  vec3 tileCenter = field.anchor.xyz + (vec3(tile.firstTexel) + 0.5 * float(FIELD_TILE)) * texelMetres;
+  float halfDiagonal = 0.8660255 * float(FIELD_TILE - 1u) * texelMetres;
   bool isChanged = false;
   for (uint first = 0u; first < field.counts.z; first += MOST_OBJECTS) {
+    if (gl_LocalInvocationIndex == 0u) farthestBits = 0u;
+    barrier();
     float farthest = 0.0;
     for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) farthest = max(farthest, metres[i]);
     atomicMax(farthestBits, floatBitsToUint(farthest)); // positive floats are ordered as their bits
-    if (thread == 0) reachingCount = 0u;
     barrier();
-    float most = uintBitsToFloat(farthestBits);
-    uint object = first + uint(thread);
-    if (object < field.counts.z && boxDistance(sdfInstances[object], tileCenter) - halfDiagonal < most)
-      reaching[atomicAdd(reachingCount, 1u)] = object;
-    barrier();
-    // The order of the list may differ from run to run; the minimum, with ties to the lower node, does not.
+    listObjects(first, tileCenter, halfDiagonal, uintBitsToFloat(farthestBits));
     for (uint r = 0u; r < reachingCount; ++r) {
-      SdfInstance instance = sdfInstances[reaching[r]];
-      int firstLevel = firstLevelFor(instance, cascade.texel.x);
-      uint node = uint(instance.ids.x) + 1u;
-      for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) {
-        ivec3 lattice = tile.firstTexel + cubeIndex(i * 128 + thread, int(FIELD_TILE));
-        vec3 point = field.anchor.xyz + texelCenter(cascade, lattice);
-        if (metres[i] > 0.0 && boxDistance(instance, point) > metres[i]) continue;
-        float distance = max(objectDistance(instance, point, firstLevel), -range);
-        uint meshInside = owners[i] & FIELD_NODE_INSIDE, owner = owners[i] & ~FIELD_NODE_INSIDE;
-        if (distance < metres[i] || (distance == metres[i] && distance < range && node < owner)) {
-          metres[i] = distance;
-          owners[i] = node | meshInside;
-          isChanged = true;
-        }
+      FieldObject object = fieldObject(sdfInstances[nearestFirst[r]], texelMetres);
+      findAlone(object, tile, cascade);
+      // The same for all threads.
+      if (boxDistance(object.instance, tileCenter) - halfDiagonal < BAND_TEXELS * texelMetres) {
+        barrier();
+        findFromNeighbours(object);
+        barrier();
       }
+      if (join(object, cascade.texel.z * texelMetres)) isChanged = true;
     }
-    barrier();
-    if (thread == 0) farthestBits = 0u;
-    barrier();
   }
   if (!isChanged) return;
   for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) {
-    ivec3 lattice = tile.firstTexel + cubeIndex(i * 128 + thread, int(FIELD_TILE));
+    ivec3 lattice = tile.firstTexel + cubeIndex(texelOfThread(i), int(FIELD_TILE));
     nodes[texelWord(cascade, lattice)] = owners[i];
     imageStore(distances[tile.cascade], lattice & (cascade.window.w - 1), vec4(metres[i] * cascade.texel.y));
   }

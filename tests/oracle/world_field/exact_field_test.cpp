@@ -114,8 +114,7 @@ TEST_F(ExactField, UpdatesEqualTheFieldMadeFromNothing) {
   }
 }
 
-// A torus of bricks and a sphere of triangles, apart. In the object's box its bricks' values count: 8-bit codes of
-// trilinear cells, of coarser levels a few voxels from the surface. Outside of the box all is a lower bound.
+// A torus of bricks and a sphere of triangles, apart. More of this in sdf_objects_test.cpp.
 TEST_F(ExactField, SdfObjectsJoinMeshes) {
   Scene built = makeInterpenetration();
   built.nodes[1].matrix = glm::translate(glm::mat4(1), glm::vec3(1.6f, 0.2f, 0.1f));
@@ -127,10 +126,12 @@ TEST_F(ExactField, SdfObjectsJoinMeshes) {
   const FieldAccuracy inBox =
       accuracyOf(field, oracle, kMostTexels, {glm::vec3(-0.82f, -0.82f, -0.22f), glm::vec3(0.82f, 0.82f, 0.22f)});
   print("in the box of the bricks", inBox);
-  EXPECT_LE(inBox.rms, 0.05);
-  EXPECT_LE(inBox.p999, 0.3);
+  EXPECT_LE(inBox.rms, 0.01);
+  EXPECT_LE(inBox.p999, 0.12);
   const FieldAccuracy error = accuracyOf(field, oracle, kMostTexels);
   print("torus of bricks, sphere", error);
+  EXPECT_LE(error.rms, 0.01);
+  EXPECT_LE(error.p999, 0.12);
   EXPECT_LE(error.wrongSigns, 1e-4);
   EXPECT_LE(error.farAbove, 0.05);
   const auto nodeAt = [&](glm::vec3 point) {
