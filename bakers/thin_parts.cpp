@@ -60,8 +60,9 @@ double growthVoxels(const SolidThickness& thickness, std::uint32_t triangle, glm
   const glm::dvec3 toCentroid = (corners[0] + corners[1] + corners[2]) / 3.0 - on;
   const double far = glm::length(toCentroid), step = kOffEdgeVoxels * voxelSize;
   const glm::dvec3 place = on + (far > step ? step / far : 1.0) * toCentroid;
-  const double limit = kLeastSolidVoxels * voxelSize;
-  return 0.5 * std::max(0.0, limit - thickness.behind(triangle, place, limit).value_or(limit)) / voxelSize;
+  const double limit = kSmoothSolidVoxels * voxelSize;
+  const double behind = thickness.behind(triangle, place, limit).value_or(limit);
+  return std::clamp(0.5 * (limit - behind) / voxelSize, 0.0, kMostGrowthVoxels);
 }
 
 } // namespace

@@ -1,8 +1,8 @@
 // Parts of closed solids that are thinner than a voxel and would fall between the samples: how much there is of them,
 // and how far each sample's surface is moved out so that nothing is lost.
 //
-//   solid         ------------   thickness T       grown    ------------  (1.125 voxels - T) / 2 farther out
-//                 ------------                              ============  the solid
+//   solid         ------------   thickness T       grown    ------------  (1.755 voxels - T) / 2 farther out,
+//                 ------------                              ============  but by 0.5625 voxel at most
 //                                                           ------------
 #pragma once
 
@@ -14,9 +14,11 @@ namespace brickfield {
 
 /// Less is the rims of sharp edges and tips.
 inline constexpr double kThinShareAllowed = 0.01;
-/// What every solid is drawn as at least, as thin as a slab of sheets: less could fall between two samples.
-inline constexpr double kLeastSolidVoxels = 1.125;
-inline constexpr double kMostGrowthVoxels = 0.5 * kLeastSolidVoxels;
+/// Solids this thick keep smooth sides, as slabs do that lie behind their fronts: no corner of a cell that one side
+/// crosses is deeper than the cell's diagonal, and nearer to the other side. Thinner ones ripple.
+inline constexpr double kSmoothSolidVoxels = 1.755;
+/// By so much a solid without any thickness is as thick as a slab of sheets, and cannot fall between two samples.
+inline constexpr double kMostGrowthVoxels = 0.5625;
 
 /// Share of the closed solid surface behind which the solid ends within a voxel, and the resolution at which no more
 /// than kThinShareAllowed of it would. Sheets do not count: their slabs are never lost.
@@ -29,7 +31,7 @@ inline constexpr double kMostGrowthVoxels = 0.5 * kLeastSolidVoxels;
 ThinParts findThinParts(const SolidThickness& thickness, double voxelSize, int resolution);
 
 /// How far, in voxels, the surface that is closest to each sample of a level is moved outwards: continuous in the
-/// thickness, nothing from kLeastSolidVoxels on, for open solids and far from the surface.
+/// thickness, nothing from kSmoothSolidVoxels on, for open solids and far from the surface.
 ///
 /// cost      a thickness for each sample within three voxels of closed solids; all threads
 /// proved by tests/bake/bakers/thin_parts_test.cpp

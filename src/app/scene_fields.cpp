@@ -34,7 +34,7 @@ std::string thinPartsWarning(const std::string& label, const BrickField& field, 
   return fmt::format("{}: {:.0f} % of its closed surface bounds parts thinner than a voxel of {:.2g} m, which {}; "
                      "voxels of {:.2g} m would do {}",
                      label, 100.0 * thin.perTenThousand / ThinParts::kWhole, voxelMetres,
-                     settings.sign == SignMethod::Auto ? "are drawn that thick" : "may have holes",
+                     settings.sign == SignMethod::Auto ? "are drawn thicker" : "may have holes",
                      voxelMetres * settings.resolution / thin.resolution, remedy);
 }
 
