@@ -44,8 +44,8 @@ JudgedTexel judge(const FieldVolume& volume, float value, glm::dvec3 pointWorld,
   JudgedTexel texel;
   texel.toSurface = truth.unsignedDistance() / h;
   texel.hasSign = truth.onClosedComponent() && texel.toSurface > kSidelessTexels;
-  if (truth.insideAny && !truth.onClosedComponent()) {
-    texel.judgement = Judgement::Overlap; // a sheet within a solid is nearest
+  if (truth.insideClosed && !truth.onClosedComponent()) {
+    texel.judgement = Judgement::Overlap; // a sheet is nearest, within the solid that is
     return texel;
   }
   if (texel.hasSign && (value < 0) != truth.insideClosed) {

@@ -99,7 +99,8 @@ TEST(FieldAccuracyTest, SheetsAreThickOrWithoutSides) {
               0.02);
 }
 
-// A second ball in the first: around its surface a field may say either side, and is not judged.
+// A second ball in the first, closed or open: around its surface a field may say either side, and is not judged. In a
+// room, inside of its walls, things are judged all the same.
 TEST(FieldAccuracyTest, WhatLiesWithinASolidIsLeftOut) {
   Ball ball;
   ball.scene.nodes.push_back(ball.scene.nodes[0]);
@@ -116,6 +117,28 @@ TEST(FieldAccuracyTest, WhatLiesWithinASolidIsLeftOut) {
   EXPECT_GT(error.overlaps, 300u);
   EXPECT_EQ(error.wrongSigns, 0);
   EXPECT_LT(error.rms, 1e-5);
+  const auto offBeside = [](glm::dvec3 point, double texels) {
+    return glm::length(point) > 0.4 && glm::length(point) < 0.6 ? texels + 0.25 : texels;
+  };
+  EXPECT_GT(measureAccuracy(volumeOf(oracle, offBeside), kAnchor, oracle, SheetMeaning::Thick, 1u << 20).worst, 0.2);
+}
+
+TEST(FieldAccuracyTest, SheetsInASolidAreLeftOutAndThoseInARoomAreNot) {
+  Ball ball;
+  ball.scene.meshes.push_back(makeSphereMesh(0.4f, 24, 48));
+  ball.scene.meshes[1].primitives[0].indices.resize(600); // a cap
+  ball.scene.nodes.push_back(ball.scene.nodes[0]);
+  ball.scene.nodes[1].mesh = 1;
+  ball.scene.scenes[0].nodes.push_back(1);
+  ball.pose = poseScene(ball.scene, {});
+  const FieldOracle oracle(ball.scene, ball.pose);
+  const auto same = [](glm::dvec3, double texels) { return texels; };
+  const FieldAccuracy inSolid = measureAccuracy(volumeOf(oracle, same), kAnchor, oracle, SheetMeaning::Thick, 1u << 20);
+  EXPECT_GT(inSolid.overlaps, 50u);
+  std::vector<std::uint32_t>& indices = ball.scene.meshes[0].primitives[0].indices;
+  for (std::size_t i = 0; i < indices.size(); i += 3) std::swap(indices[i], indices[i + 1]); // walls that face inwards
+  const FieldOracle room(ball.scene, ball.pose);
+  EXPECT_EQ(measureAccuracy(volumeOf(room, same), kAnchor, room, SheetMeaning::Thick, 1u << 20).overlaps, 0u);
 }
 
 TEST(FieldAccuracyTest, OnlyTexelsInTheBoxCount) {
