@@ -67,7 +67,7 @@ struct BrickLevel {
   }
 };
 
-/// Parts of closed solids that are thinner than a voxel of the finest level and so may be lost between the samples.
+/// Parts of closed solids that are thinner than a voxel of the finest level: no samples show them as they are.
 struct ThinParts {
   static constexpr std::uint16_t kWhole = 10000;
   std::uint16_t perTenThousand = 0; ///< share of the closed surface that bounds them
