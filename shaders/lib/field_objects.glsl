@@ -135,14 +135,15 @@ struct ObjectDistance {
 // The bound from below, and whether it is all that is needed: beyond the band, or farther than `most` metres.
 // Outside of the box, with q its closest point there: sqrt(max(I(q), 0)^2 + |p - q|^2) in grid voxels, because the box
 // is convex and angle(p, q, surface) is no less than a right one; times the least metres of a voxel. What is read may
-// exceed the truth: a distance d curves by at most 1/d along two axes, which adds up to voxel^2/8 * 2/d.
+// exceed the truth: a distance d curves by at most 1/d along two axes, which adds up to voxel^2/8 * 2/d; nearer than two
+// voxels less is taken off, lest it steps where the level changes.
 ObjectDistance boundDistance(FieldObject object, vec3 pointWorld, float most) {
   ObjectDistance result;
   vec3 p = gridPoint(object.instance, pointWorld), q = clampToBox(object.instance, p);
   BrickReading reading = readObject(object, q);
   float outer = distance(p, q), read = abs(reading.grid);
   bool isInside = reading.grid < 0.0 && outer == 0.0;
-  float excess = 0.25 * reading.voxel * reading.voxel / max(read - 1.7320508 * reading.voxel, 0.6 * reading.voxel);
+  float voxel = reading.voxel, excess = 0.25 * voxel * voxel / max(read - 0.5 * voxel, 2.0 * voxel);
   float inner = max((isInside ? read : reading.grid) - excess, 0.0);
   result.pointGrid = p;
   result.side = isInside ? -1.0 : 1.0;
