@@ -6,7 +6,7 @@
 
 // Level voxels up to which no corner that weighs in a stored distance is clamped: four, less the way to the corner.
 const float TRUSTED_VOXELS = 2.8;
-const float BAND_TEXELS = 4.0;
+const float BAND_TEXELS = 4.0, INSIDE_BAND_TEXELS = 5.0;
 // Where bounds stand this close together the search ends.
 const float ACCURATE_TEXELS = 0.01;
 // Between samples a distance may fall about this much below the truth where two surfaces are equally far away.
@@ -135,8 +135,8 @@ struct ObjectDistance {
 // The bound from below, and whether it is all that is needed: beyond the band, or farther than `most` metres.
 // Outside of the box, with q its closest point there: sqrt(max(I(q), 0)^2 + |p - q|^2) in grid voxels, because the box
 // is convex and angle(p, q, surface) is no less than a right one; times the least metres of a voxel. What is read may
-// exceed the truth: a distance d curves by at most 1/d along two axes, which adds up to voxel^2/8 * 2/d; nearer than two
-// voxels less is taken off, lest it steps where the level changes.
+// exceed the truth: a distance d curves by at most 1/d along two axes, which adds up to voxel^2/8 * 2/d; nearer than
+// two voxels less is taken off, lest it steps where the level changes.
 ObjectDistance boundDistance(FieldObject object, vec3 pointWorld, float most) {
   ObjectDistance result;
   vec3 p = gridPoint(object.instance, pointWorld), q = clampToBox(object.instance, p);
@@ -150,7 +150,8 @@ ObjectDistance boundDistance(FieldObject object, vec3 pointWorld, float most) {
   result.lower = object.instance.boxMax.w * (outer > 0.0 ? length(vec2(inner, outer)) : inner);
   result.upper = result.lower;
   result.isSearched = false;
-  if (result.lower >= BAND_TEXELS * object.texelMetres || (!isInside && result.lower > most)) return result;
+  float band = (isInside ? INSIDE_BAND_TEXELS : BAND_TEXELS) * object.texelMetres;
+  if (result.lower >= band || (!isInside && result.lower > most)) return result;
   bool isFine = reading.voxel * object.instance.boxMin.w <= 0.125 * object.texelMetres;
   bool isClose = reading.voxel == object.fineVoxel && read < 1.5 * object.fineVoxel;
   if (object.isSimilar && outer == 0.0 && (isFine || isClose)) {
@@ -252,7 +253,11 @@ void searchSurface(FieldObject object, inout ObjectDistance found, vec3 startGri
   }
 }
 
-// Metres, signed: at most the band's end where the bound from below lies within the band.
+// Metres, signed. Outside nothing may exceed the truth: at most the band's end where the bound from below lies before
+// it. Inside one fades into the other.
 float signedDistance(FieldObject object, ObjectDistance found) {
-  return found.side * clamp(found.upper, found.lower, max(found.lower, BAND_TEXELS * object.texelMetres));
+  float upper = max(found.upper, found.lower), band = BAND_TEXELS * object.texelMetres;
+  if (found.side > 0.0) return min(upper, max(found.lower, band));
+  float fade = (INSIDE_BAND_TEXELS - BAND_TEXELS) * object.texelMetres;
+  return -mix(upper, found.lower, clamp((found.lower - band) / fade, 0.0, 1.0));
 }

@@ -82,16 +82,17 @@ struct MixtureError {
   double farAbove = 0, farBelow = 0;   // beyond, outside: largest value above the truth, and below
   double wrongSigns = 0;               // share of all texels
   double farthestWrongSign = 0;
-  double largestStep = 0; // between neighbours, over all texels
+  double largestStep = 0; // between neighbours, over all texels but deep ones
   std::size_t texels = 0; // within four
 };
 
+// Deeper inside than four texels, where no ray goes, does not count.
 double largestStep(const FieldSnapshot& field) {
   const auto side = static_cast<std::size_t>(field.window.texels);
   double largest = 0;
   for (const std::size_t stride : {std::size_t{1}, side, side * side})
     for (std::size_t i = 0; i < field.distances.size(); ++i)
-      if (i / stride % side + 1 < side)
+      if (i / stride % side + 1 < side && std::min(field.distances[i], field.distances[i + stride]) >= -4)
         largest = std::max(largest, std::abs(double{field.distances[i]} - field.distances[i + stride]));
   return largest;
 }
