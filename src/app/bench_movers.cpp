@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 Json benchCrowd(const FieldBenchSetting& setting, const MoverCrowd& crowd) {
   FieldBench bench(setting.device, crowd.scene, crowd.fields);
   const DeviceRates rates = ratesOf(setting.request, setting.device.renderer);
-  const FieldShape shape;
+  const FieldShape& shape = setting.request.moverShape;
   const FieldTimes times = bench.timeExact(shape, motionOf(crowd), setting.request.frames);
   fmt::print("{:>7} movers {:9.3f} ms |{} | tiles {} values | plan {:.3f} ms of the CPU | {:.0f} MiB\n",
              crowd.centers.size(), times.sumMilliseconds, passesText(times), times.tiles.values, times.planMilliseconds,
@@ -35,9 +35,10 @@ Json benchMovers(const FieldBenchSetting& setting) {
   const SceneFields fields = bakeBenchFields(setting);
   if (fields.fields.empty())
     throw BadInput(setting.scene.name, "", "has no SDF object to move; choose nodes with --sdf");
-  fmt::print("SDF objects of {:g} m, {:g} m apart, on circles of {:g} m, all moving, in cascades of the default shape; "
-             "{} different.\nMilliseconds, medians of {} frames.\n",
-             kMoverSize, kMoverSpacing, kMoverCircle, fields.fields.size(), setting.request.frames);
+  fmt::print("SDF objects of {:g} m, {:g} m apart, on circles of {:g} m, all moving, in {} cascades of {}^3; {} "
+             "different.\nMilliseconds, medians of {} frames.\n",
+             kMoverSize, kMoverSpacing, kMoverCircle, setting.request.moverShape.cascades,
+             setting.request.moverShape.texels, fields.fields.size(), setting.request.frames);
   Json json = Json::array();
   for (const int count : setting.request.moverCounts)
     json.push_back(benchCrowd(setting, makeMoverCrowd(setting.scene, fields, count)));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/options.h"
+#include "field/field_windows.h"
 #include "gpu/context.h"
 #include "resident/resident_scene.h"
 
@@ -20,6 +21,7 @@ struct FieldBenchRequest {
   std::filesystem::path json; ///< empty: not asked for
   std::set<std::string> shown{"table1", "table3", "table4", "errors"};
   std::vector<int> moverCounts; ///< not empty: crowds of SDF objects, and nothing else
+  FieldShape moverShape;        ///< the cascades that they are in
   std::vector<std::string> sizes{"S", "M", "L"};
   std::vector<int> rays;    ///< a texel of RTSDF; empty: as the paper's tables have them
   std::vector<float> masks; ///< of table 4; empty: as the paper has them

@@ -1,6 +1,7 @@
 // The flags of `bench world-field`.
 #include "app/command_bench.h"
 
+#include <bit>
 #include <limits>
 
 #include <CLI/CLI.hpp>
@@ -38,6 +39,25 @@ std::function<int(std::string_view)> wholeIn(const std::string& flag, int least,
   return [=](std::string_view text) { return static_cast<int>(parseWhole(flag, text, least, most)); };
 }
 
+int parseTexels(const std::string& flag, const std::string& text) {
+  const int texels = wholeIn(flag, 64, 512)(text);
+  if (!std::has_single_bit(static_cast<unsigned>(texels)))
+    throw BadInput(flag, fmt::format("\"{}\"", text), "is no power of two");
+  return texels;
+}
+
+void addMovers(CLI::App& command, FieldBenchRequest& request) {
+  addValue(command, "--movers", "Instead: crowds of as many moving SDF objects, comma separated, such as 1000",
+           [&](auto& flag, auto& text) { request.moverCounts = parseList<int>(text, wholeIn(flag, 1, 1000000)); })
+      ->type_name("N,...");
+  addValue(command, "--field-cascades", "Cascades that the movers are in, 1 to 8, 4 by default",
+           [&](auto& flag, auto& text) { request.moverShape.cascades = wholeIn(flag, 1, 8)(text); })
+      ->type_name("N");
+  addValue(command, "--field-texels", "Texels along those cascades' sides, 64 to 512, a power of two, 128 by default",
+           [&](auto& flag, auto& text) { request.moverShape.texels = parseTexels(flag, text); })
+      ->type_name("N");
+}
+
 void addMeasures(CLI::App& command, FieldBenchRequest& request) {
   addValue(command, "--show", "Of table1, table3, table4 and errors, comma separated; absent: all",
            [&](auto& flag, auto& text) {
@@ -46,9 +66,6 @@ void addMeasures(CLI::App& command, FieldBenchRequest& request) {
                request.shown.insert(parseOf(flag, piece, {"table1", "table3", "table4", "errors"}));
            })
       ->type_name("PART,...");
-  addValue(command, "--movers", "Instead: crowds of as many moving SDF objects, comma separated, such as 1000",
-           [&](auto& flag, auto& text) { request.moverCounts = parseList<int>(text, wholeIn(flag, 1, 1000000)); })
-      ->type_name("N,...");
   addValue(command, "--sizes", "Of S, M and L, comma separated; absent: all", [&](auto& flag, auto& text) {
     request.sizes = parseList<std::string>(text, [&](std::string_view piece) {
       return parseOf(flag, piece, {"S", "M", "L"});
@@ -98,6 +115,7 @@ void addWorldField(CLI::App& bench, CommandAction& chosen) {
   addSceneOptions(command, request->scene);
   addCameraOptions(command, request->camera);
   addMeasures(command, *request);
+  addMovers(command, *request);
   addErrors(command, *request);
   addDevice(command, *request);
   command.callback([request, &chosen] {

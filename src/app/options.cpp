@@ -72,9 +72,10 @@ void addSceneOptions(CLI::App& command, SceneRequest& request) {
 }
 
 void addCameraOptions(CLI::App& command, CameraRequest& request) {
-  addValue(command, "--size", "Image size in pixels, 1280x720 by default", [&](auto& flag, auto& text) {
-    request.sizePixels = parseSize(flag, text);
-  })->type_name("WxH");
+  addValue(command, "--size",
+           fmt::format("Image size in pixels, {}x{} by default", request.sizePixels.x, request.sizePixels.y),
+           [&](auto& flag, auto& text) { request.sizePixels = parseSize(flag, text); })
+      ->type_name("WxH");
   addName(command, "--camera", "Camera by name or number, or auto, which frames the scene", request.camera);
   addValue(command, "--eye", "Where the camera stands, metres; with --target; the lens stays that of --camera",
            [&](auto& flag, auto& text) { request.eye = parseVector(flag, text); })

@@ -1,4 +1,5 @@
 // `bench world-field` as a stranger runs it.
+#include "app/bench_world_field.h"
 #include "tests/robustness/app/command_line_fixture.h"
 
 namespace brickfield::test {
@@ -23,6 +24,8 @@ TEST_F(BenchCommand, RefusesWhatItCannotMeasure) {
   expectFlag("--frames", "0");
   expectFlag("--movers", "0");
   expectFlag("--movers", "all");
+  expectFlag("--field-cascades", "9");
+  expectFlag("--field-texels", "96");
   expectFlag("--error-frames", "0");
   expectFlag("--error-samples", "0");
   expectFlag("--bandwidth", "0");
@@ -136,21 +139,24 @@ TEST_F(BenchCommand, ErrorsOfSdfObjectsAreAgainstTheirMeshes) {
   EXPECT_LE(rows[0].at("beyond").at("above"), 0.05);
 }
 
-TEST_F(BenchCommand, MoversAreTimedInTheDefaultCascades) {
+TEST_F(BenchCommand, MoversAreTimedInCascades) {
   const ProgramResult result =
-      run({"bench", "world-field", "scene.gltf", "--movers", "3", "--sdf", "all", "--resolution", "16", "--cache",
-           "cache", "--frames", "1", "--json", "movers.json"});
+      run({"bench", "world-field", "scene.gltf", "--movers", "3", "--field-cascades", "2", "--field-texels", "64",
+           "--sdf", "all", "--resolution", "16", "--cache", "cache", "--frames", "1", "--json", "movers.json"});
   ASSERT_EQ(result.exitCode, 0) << result.messages;
   const nlohmann::json rows = jsonFrom("movers.json").at("movers");
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].at("movers"), 3);
   EXPECT_EQ(rows[0].at("sdf_objects"), 3);
-  EXPECT_EQ(rows[0].at("cascades"), 4);
-  EXPECT_EQ(rows[0].at("texels"), 128);
+  EXPECT_EQ(rows[0].at("cascades"), 2);
+  EXPECT_EQ(rows[0].at("texels"), 64);
   EXPECT_GT(rows[0].at("sum_ms"), 0.0);
   EXPECT_GT(rows[0].at("tiles").at("values"), 0) << "all move";
   EXPECT_EQ(rows[0].at("floor").at("bytes"), 3 * 144 + rows[0].at("tiles").at("values").get<double>() * 512 * 6);
-  EXPECT_LE(rows[0].at("bytes"), 128 << 20);
+  EXPECT_LE(rows[0].at("tiles").at("values"), 2 * 512);
+  EXPECT_THAT(result.output, ::testing::HasSubstr("in 2 cascades of 64^3"));
+  const FieldShape usual = FieldBenchRequest().moverShape;
+  EXPECT_EQ(std::pair(usual.cascades, usual.texels), std::pair(4, 128)) << "what the figures are of";
 }
 
 } // namespace
