@@ -37,6 +37,10 @@ uint coarseWord(FieldCascade cascade, ivec3 coarse) {
   return cascade.buffers.y + tileSlot(cascade, coarse >> 2) * COARSE_TILE_TEXELS + indexInTile(coarse, COARSE_TILE);
 }
 
+// Word, in the buffer of candidates, that holds the distances of a coarse texel and its neighbour along x as halves:
+// they follow the candidates of all cascades.
+uint coarseDistanceWord(uint coarse) { return field.coarse.x + coarse / 2u; }
+
 struct ListedTile {
   uint cascade;
   uint word;        // in the buffer of tiles

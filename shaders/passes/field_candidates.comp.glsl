@@ -1,4 +1,5 @@
-// The triangle of each coarse texel: the nearest of those that its and its neighbours' nearest seeds name.
+// The triangle of each coarse texel: the nearest of those that its own nearest seed and those of its eighteen nearest
+// neighbours name.
 #include "lib/field_candidates.glsl"
 #include "lib/field_grid.glsl"
 #include "lib/field_sweep.glsl"
@@ -15,6 +16,8 @@ uniform uint listLength;
 
 const int APRON = COARSE_TILE + 2;
 shared uint named[APRON * APRON * APRON];
+const float MOST_HALF = 65504.0;
+shared float ranks[COARSE_TILE_TEXELS]; // texels
 shared uint leastBits, leastTexel;
 
 uint seedNamedBy(FieldCascade cascade, ivec3 coarse) {
@@ -35,7 +38,7 @@ void main() {
   ivec3 first = tile.firstTexel / COARSE;
   if (gl_LocalInvocationIndex == 0u) leastBits = 0x7f800000u, leastTexel = 64u; // infinity
   for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += 64)
-    named[i] = seedNamedBy(cascade, first - 1 + ivec3(i % APRON, i / APRON % APRON, i / (APRON * APRON)));
+    named[i] = seedNamedBy(cascade, first - 1 + cubeIndex(i, APRON));
   barrier();
   ivec3 at = cubeIndex(int(gl_LocalInvocationIndex), COARSE_TILE);
   vec3 point = coarseCenter(cascade, first + at);
@@ -43,13 +46,21 @@ void main() {
   Nearest nearest = Nearest(FIELD_NONE, 1e30);
   int own = ((at.z + 1) * APRON + at.y + 1) * APRON + at.x + 1;
   consider(named[own], point, sheetHalf, nearest);
-  for (int i = 0; i < 27; ++i)
-    consider(named[own + ((i / 9 - 1) * APRON + i / 3 % 3 - 1) * APRON + i % 3 - 1], point, sheetHalf, nearest);
-  candidates[coarseWord(cascade, first + at)] = nearest.triangle;
+  for (int i = 0; i < 27; ++i) {
+    ivec3 step = cubeIndex(i, 3) - 1;
+    if (abs(step.x) + abs(step.y) + abs(step.z) < 3) // the eight at the corners add nothing
+      consider(named[own + (step.z * APRON + step.y) * APRON + step.x], point, sheetHalf, nearest);
+  }
+  uint word = coarseWord(cascade, first + at);
+  candidates[word] = nearest.triangle;
+  float rank = nearest.triangle == FIELD_NONE ? MOST_HALF : nearest.rank * cascade.texel.y;
+  ranks[gl_LocalInvocationIndex] = rank;
   // Positive floats are ordered as their bits.
-  uint bits = floatBitsToUint(nearest.rank * cascade.texel.y);
+  uint bits = floatBitsToUint(rank);
   if (nearest.triangle != FIELD_NONE) atomicMin(leastBits, bits);
   barrier();
+  if ((gl_LocalInvocationIndex & 1u) == 0u)
+    candidates[coarseDistanceWord(word)] = packHalf2x16(vec2(rank, ranks[gl_LocalInvocationIndex + 1u]));
   bool isLeast = nearest.triangle != FIELD_NONE && bits == leastBits;
   if (isLeast) atomicMin(leastTexel, gl_LocalInvocationIndex);
   barrier();

@@ -1,9 +1,12 @@
-// First round at full resolution, in the band: each texel's nearest of the 27 keys around it, where there are none of
-// the eight coarse candidates.
+// The band at full resolution, first round. A texel with a key has its nearest triangle (to a quantum of the key's
+// distance) and is done. One without takes the nearest of the 27 keys around it, where there are none of the eight
+// coarse candidates; field_refine finishes it. Texels farther away than matters here are left to field_far.
 #include "lib/field_band.glsl"
 #include "lib/field_keys.glsl"
+#include "lib/field_open.glsl"
+#include "lib/field_values.glsl"
 
-layout(local_size_x = 128) in;
+layout(local_size_x = OPEN_THREADS) in;
 
 layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
 layout(std430, binding = kFieldKeyBinding) readonly buffer KeyBlock { uint keys[]; };
@@ -15,8 +18,45 @@ uniform uint listLength;
 
 const int COARSE_APRON = COARSE_TILE + 2;
 const int KEY_APRON = int(FIELD_TILE) + 2;
+// From a texel's centre to its coarse one's half the diagonal of a texel; and what coarse candidates may err by.
+const float COARSE_AWAY_TEXELS = 0.8660255 + 0.25;
 shared uint coarseIds[COARSE_APRON * COARSE_APRON * COARSE_APRON];
+shared float coarseRanks[COARSE_TILE * COARSE_TILE * COARSE_TILE]; // texels
 shared uint keyIds[KEY_APRON * KEY_APRON * KEY_APRON];
+
+void load(ListedTile tile, FieldCascade cascade) {
+  int thread = int(gl_LocalInvocationIndex);
+  if (thread == 0) openCount = 0u;
+  ivec3 firstCoarse = tile.firstTexel / COARSE;
+  for (int i = thread; i < COARSE_APRON * COARSE_APRON * COARSE_APRON; i += int(OPEN_THREADS)) {
+    ivec3 coarse = firstCoarse - 1 + cubeIndex(i, COARSE_APRON);
+    coarseIds[i] = isInWindow(cascade, coarse * COARSE) ? candidates[coarseWord(cascade, coarse)] : FIELD_NONE;
+  }
+  if (thread < int(COARSE_TILE_TEXELS) / 2) {
+    vec2 pair = unpackHalf2x16(candidates[coarseDistanceWord(coarseWord(cascade, firstCoarse) + 2u * uint(thread))]);
+    coarseRanks[2 * thread] = pair.x, coarseRanks[2 * thread + 1] = pair.y;
+  }
+  for (int i = thread; i < KEY_APRON * KEY_APRON * KEY_APRON; i += int(OPEN_THREADS)) {
+    ivec3 lattice = tile.firstTexel - 1 + cubeIndex(i, KEY_APRON);
+    keyIds[i] = isInWindow(cascade, lattice) ? triangleOfKey(keys[texelWord(cascade, lattice)]) : FIELD_NONE;
+  }
+  barrier();
+}
+
+uint nearestAround(ivec3 at, vec3 point, float sheetHalf) {
+  Nearest nearest = Nearest(FIELD_NONE, 1e30);
+  for (int n = 0; n < 27; ++n) {
+    ivec3 k = at + ivec3(n % 3, n / 3 % 3, n / 9);
+    consider(keyIds[(k.z * KEY_APRON + k.y) * KEY_APRON + k.x], point, sheetHalf, nearest);
+  }
+  bool isNear = nearest.triangle != FIELD_NONE; // keys say enough
+  ivec3 coarse = (at + 1) >> 1;                 // the lowest of the eight, in the apron
+  for (int corner = 0; corner < 8 && !isNear; ++corner) {
+    ivec3 c = coarse + ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+    consider(coarseIds[(c.z * COARSE_APRON + c.y) * COARSE_APRON + c.x], point, sheetHalf, nearest);
+  }
+  return nearest.triangle;
+}
 
 void main() {
   uint index = listIndex();
@@ -24,32 +64,31 @@ void main() {
   ListedTile tile = listedTile(listed[index]);
   FieldCascade cascade = field.cascades[tile.cascade];
   if (!isBandTile(tiles[tile.word])) return;
-  int thread = int(gl_LocalInvocationIndex);
-  for (int i = thread; i < COARSE_APRON * COARSE_APRON * COARSE_APRON; i += 128) {
-    ivec3 coarse = tile.firstTexel / COARSE - 1 + cubeIndex(i, COARSE_APRON);
-    coarseIds[i] = isInWindow(cascade, coarse * COARSE) ? candidates[coarseWord(cascade, coarse)] : FIELD_NONE;
-  }
-  for (int i = thread; i < KEY_APRON * KEY_APRON * KEY_APRON; i += 128) {
-    ivec3 lattice = tile.firstTexel - 1 + cubeIndex(i, KEY_APRON);
-    keyIds[i] = isInWindow(cascade, lattice) ? triangleOfKey(keys[texelWord(cascade, lattice)]) : FIELD_NONE;
-  }
-  barrier();
+  load(tile, cascade);
   float sheetHalf = cascade.texel.w * cascade.texel.x;
-  for (int i = thread; i < int(FIELD_TILE_TEXELS); i += 128) {
-    ivec3 at = cubeIndex(i, int(FIELD_TILE));
-    vec3 point = texelCenter(cascade, tile.firstTexel + at);
-    Nearest nearest = Nearest(FIELD_NONE, 1e30);
-    ivec3 coarse = (at + 1) >> 1; // the lowest of the eight, in the apron
-    consider(keyIds[((at.z + 1) * KEY_APRON + at.y + 1) * KEY_APRON + at.x + 1], point, sheetHalf, nearest);
-    for (int n = 0; n < 27; ++n) {
-      ivec3 k = at + ivec3(n % 3, n / 3 % 3, n / 9);
-      consider(keyIds[(k.z * KEY_APRON + k.y) * KEY_APRON + k.x], point, sheetHalf, nearest);
+  uint mine = 0u; // texels without a key
+  for (int k = 0; k < OWN_TEXELS; ++k) {
+    int i = k * int(OPEN_THREADS) + int(gl_LocalInvocationIndex);
+    ivec3 at = cubeIndex(i, int(FIELD_TILE)), lattice = tile.firstTexel + at;
+    uint triangle = keyIds[((at.z + 1) * KEY_APRON + at.y + 1) * KEY_APRON + at.x + 1];
+    if (triangle != FIELD_NONE) {
+      storeFine(tile.cascade, lattice, triangles[triangle], texelCenter(cascade, lattice), sheetHalf);
+      ids[tile.word * FIELD_TILE_TEXELS + uint(i)] = triangle | FIELD_ID_FINAL;
+      continue;
     }
-    bool isNear = nearest.triangle != FIELD_NONE; // keys say enough
-    for (int corner = 0; corner < 8 && !isNear; ++corner) {
-      ivec3 c = coarse + ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-      consider(coarseIds[(c.z * COARSE_APRON + c.y) * COARSE_APRON + c.x], point, sheetHalf, nearest);
+    ivec3 coarse = at >> 1;
+    if (coarseRanks[(coarse.z * COARSE_TILE + coarse.y) * COARSE_TILE + coarse.x] <= FINE_TEXELS + COARSE_AWAY_TEXELS) {
+      mine |= 1u << k;
+    } else {
+      ids[tile.word * FIELD_TILE_TEXELS + uint(i)] = FIELD_NONE;
+      nodes[texelWord(cascade, lattice)] = 0u;
     }
-    ids[tile.word * FIELD_TILE_TEXELS + uint(i)] = nearest.triangle;
+  }
+  listOpen(mine);
+  barrier();
+  for (uint i = gl_LocalInvocationIndex; i < openCount; i += OPEN_THREADS) {
+    ivec3 at = cubeIndex(int(open[i]), int(FIELD_TILE));
+    ids[tile.word * FIELD_TILE_TEXELS + open[i]] =
+        nearestAround(at, texelCenter(cascade, tile.firstTexel + at), sheetHalf);
   }
 }

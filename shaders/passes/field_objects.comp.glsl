@@ -97,10 +97,11 @@ bool join(FieldObject object, float range) {
   bool isChanged = false;
   for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) {
     float distance = max(signedDistance(object, found[i]), -range);
-    uint meshInside = owners[i] & FIELD_NODE_INSIDE, owner = owners[i] & ~FIELD_NODE_INSIDE;
+    // What the word says of meshes stays: updates to come ask for it.
+    uint ofMeshes = owners[i] & ~FIELD_NODE_MASK, owner = owners[i] & FIELD_NODE_MASK;
     if (distance < metres[i] || (distance == metres[i] && distance < range && node < owner)) {
       metres[i] = distance;
-      owners[i] = node | meshInside;
+      owners[i] = node | ofMeshes;
       isChanged = true;
     }
   }

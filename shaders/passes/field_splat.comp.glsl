@@ -12,27 +12,18 @@ layout(std430, binding = kFieldSplatBinding) buffer PartBlock {
 
 uniform uint listLength;
 
-const int MOST_TEXELS_OF_ONE_THREAD = 400;
-
-void splatBox(FieldCascade cascade, SplatTriangle t, ivec3 lower, ivec3 upper) {
-  for (int z = lower.z; z <= upper.z; ++z)
-    for (int y = lower.y; y <= upper.y; ++y)
-      for (int x = lower.x; x <= upper.x; ++x) splatTexel(cascade, t, ivec3(x, y, z));
-}
+const float MOST_TEXELS_OF_ONE_THREAD = 400.0;
 
 void listParts(uint cascadeIndex, FieldCascade cascade, SplatTriangle t, ivec3 lower, ivec3 upper) {
   const int side = int(SPLAT_PART_TEXELS);
-  vec3 across = cross(t.b - t.a, t.c - t.a);
-  float size = length(across);
-  vec3 normal = size > 0.0 ? across / size : vec3(0.0);
   // A part's half extent along the normal, and the reach of the keys.
-  float reach = 0.5 * float(side) * dot(abs(normal), vec3(1.0)) + SPLAT_TEXELS;
+  float reach = 0.5 * float(side) * dot(abs(t.normal), vec3(1.0)) + SPLAT_TEXELS;
   ivec3 first = (lower - cascade.window.xyz) / side, last = (upper - cascade.window.xyz) / side;
   for (int z = first.z; z <= last.z; ++z)
     for (int y = first.y; y <= last.y; ++y)
       for (int x = first.x; x <= last.x; ++x) {
         ivec3 corner = cascade.window.xyz + ivec3(x, y, z) * side;
-        if (abs(dot(vec3(corner) + 0.5 * float(side) - t.a, normal)) > reach) continue;
+        if (abs(dot(vec3(corner) + 0.5 * float(side) - t.origin, t.normal)) > reach) continue;
         uint place = atomicAdd(partCount, 1u);
         if (place < SPLAT_PART_CAPACITY)
           parts[place] = uvec2(t.number, cascadeIndex << 15 | uint(z) << 10 | uint(y) << 5 | uint(x));
@@ -52,9 +43,9 @@ void main() {
   ivec3 lower, upper;
   splatBounds(cascadeIndex, t, lower, upper);
   if (any(greaterThan(lower, upper))) return;
-  ivec3 extent = upper - lower + 1;
-  if (extent.x > MOST_TEXELS_OF_ONE_THREAD || extent.x * extent.y > MOST_TEXELS_OF_ONE_THREAD ||
-      extent.x * extent.y * extent.z > MOST_TEXELS_OF_ONE_THREAD)
+  // Whatever is made anew of what it reaches: the same triangle goes the same way, to the same keys in every bit.
+  vec3 extent = t.high - t.low + 2.0 * SPLAT_TEXELS;
+  if (extent.x * extent.y * extent.z > MOST_TEXELS_OF_ONE_THREAD)
     listParts(cascadeIndex, cascade, t, lower, upper);
   else
     splatBox(cascade, t, lower, upper);

@@ -27,11 +27,12 @@ void main() {
     barrier();
     vec3 center = vec3(corner + cubeIndex(int(thread), BLOCK) * BLOCK) + 0.5 * float(BLOCK);
     float reach = SPLAT_TEXELS + BLOCK_HALF_DIAGONAL + 1e-3;
-    if (squaredTriangleDistance(center, t.a, t.b, t.c) <= reach * reach) nearBlocks[atomicAdd(nearCount, 1u)] = thread;
+    if (squaredDistance(t, inFrame(t, center)) <= reach * reach) nearBlocks[atomicAdd(nearCount, 1u)] = thread;
     barrier();
     for (uint block = 0u; block < nearCount; ++block) {
       ivec3 lattice = corner + cubeIndex(int(nearBlocks[block]), BLOCK) * BLOCK + cubeIndex(int(thread), BLOCK);
-      if (isInWindow(cascade, lattice)) splatTexel(cascade, t, lattice);
+      if (isInWindow(cascade, lattice))
+        splatTexel(splatRow(cascade, lattice.y, lattice.z), t, lattice.x, inFrame(t, vec3(lattice) + 0.5));
     }
     barrier();
   }

@@ -10,6 +10,7 @@
 layout(local_size_x = GATHER_TRIANGLES) in;
 
 layout(std430, binding = kGatherTriangleBinding) buffer TriangleBlock { WorldTriangle worldTriangles[]; };
+layout(std430, binding = kGatherFaceBinding) readonly buffer FaceBlock { WorldFace worldFaces[]; };
 layout(std430, binding = kGatherInstanceBinding) readonly buffer InstanceBlock { WorldInstance worldInstances[]; };
 layout(std430, binding = kGatherTopologyBinding) readonly buffer TopologyBlock { TopologyRow topology[]; };
 layout(std430, binding = kGatherChunkBinding) readonly buffer ChunkBlock { GatherChunk chunks[]; };
@@ -19,19 +20,7 @@ layout(std430, binding = kGatherFanCornerBinding) readonly buffer FanCornerBlock
 uniform uint triangleChunks;
 uniform uint chunkCount;
 
-vec3 cornerOf(uint row, uint corner) {
-  return corner == 0u   ? worldTriangles[row].a.xyz
-         : corner == 1u ? worldTriangles[row].b.xyz
-                        : worldTriangles[row].c.xyz;
-}
-
-// Unit; zero where the triangle's height is less than 2^-20 of its length: then half a radian or more is rounding.
-vec3 faceNormal(uint row) {
-  vec3 a = worldTriangles[row].a.xyz, b = worldTriangles[row].b.xyz, c = worldTriangles[row].c.xyz;
-  vec3 normal = areaNormal(a, b, c), ab = b - a, bc = c - b, ca = a - c;
-  float longest = max(dot(ab, ab), max(dot(bc, bc), dot(ca, ca)));
-  return length(normal) > 9.5e-7 * longest ? unitOrZero(normal) : vec3(0.0);
-}
+vec3 faceNormal(uint row) { return worldFaces[row].normal.xyz; }
 
 uint codeOf(vec3 normal) {
   return packSnorm2x16(octahedralFromDirection(dot(normal, normal) > 0.0 ? normal : vec3(0.0, 0.0, 1.0)));
@@ -92,10 +81,7 @@ void codeVertex(WorldInstance instance, bool mirrored, uint vertex) {
   for (uint i = begin; i < end; ++i) {
     uint row = instance.triangles.x + (fanCorners[i] >> 2u), corner = fanCorners[i] & 3u;
     if (mirrored && corner > 0u) corner = 3u - corner;
-    vec3 tip = cornerOf(row, corner);
-    vec3 first = cornerOf(row, (corner + 1u) % 3u) - tip, second = cornerOf(row, (corner + 2u) % 3u) - tip;
-    vec3 normal = normalSeenFrom(instance, mirrored, fanCorners[i] >> 2u, 3u);
-    if (dot(normal, normal) > 0.0) sum += normal * atan(length(cross(first, second)), dot(first, second));
+    sum += normalSeenFrom(instance, mirrored, fanCorners[i] >> 2u, 3u) * worldFaces[row].angles[corner];
   }
   uint code = codeOf(sum);
   for (uint i = begin; i < end; ++i) {

@@ -53,8 +53,9 @@ struct FieldParams {
   ivec4 splatMax[MOST_CASCADES];
   uvec4 counts; // x: cascades; y: bits of a triangle's number in a key; z: SDF instances; w: number of the update
   vec4 anchor;  // world
+  uvec4 coarse; // x: coarse texels of all cascades
 };
-SHARED_ASSERT_SIZE(FieldParams, 80 * 8 + 32)
+SHARED_ASSERT_SIZE(FieldParams, 80 * 8 + 48)
 
 // What is kept of a tile.
 struct FieldTile {
@@ -62,10 +63,13 @@ struct FieldTile {
   uint nearest;      // triangle nearest to any of its coarse texels, or FIELD_NONE
   uint nearestBits;  // distance of the two, texels; float bits
   uint nearestTexel; // that coarse texel's number in the tile
+  uvec4 found;       // 1 where any of its coarse texels, x: is a seed; y, z: found one in the sweep along x, and y
 };
-SHARED_ASSERT_SIZE(FieldTile, 16)
+SHARED_ASSERT_SIZE(FieldTile, 32)
 
 SHARED_CONST uint FIELD_NONE = 0xffffffffu; // no triangle; no key
+// In a texel's nearest triangle: its value is made; else field_refine asks its neighbours.
+SHARED_CONST uint FIELD_ID_FINAL = 0x80000000u;
 // A texel's node: number + 1, 0 where nothing is in range; and whether it lies inside a closed mesh.
 SHARED_CONST uint FIELD_NODE_INSIDE = 0x80000000u;
 SHARED_CONST uint FIELD_NODE_MASK = 0x1fffffffu;

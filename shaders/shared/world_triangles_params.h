@@ -12,6 +12,7 @@ SHARED_CONST uint kGatherChunkBinding = 3;
 SHARED_CONST uint kGatherVertexBinding = 4;   // of the positions
 SHARED_CONST uint kGatherFanStartBinding = 4; // of the pseudonormals
 SHARED_CONST uint kGatherFanCornerBinding = 5;
+SHARED_CONST uint kGatherFaceBinding = 6;
 
 // A triangle of a mesh, the same for all its instances.
 struct TopologyRow {
@@ -19,6 +20,13 @@ struct TopologyRow {
   uvec4 neighbours; // xyz: triangles of the mesh beyond the edges ab, bc, ca, or NO_NEIGHBOUR
 };
 SHARED_ASSERT_SIZE(TopologyRow, 32)
+
+// What a world triangle gives to the pseudonormals around it; rows as those of the world triangles.
+struct WorldFace {
+  vec4 normal; // unit; zero where the triangle has none to speak of
+  vec4 angles; // at the corners a, b and c
+};
+SHARED_ASSERT_SIZE(WorldFace, 32)
 
 SHARED_CONST uint NO_NEIGHBOUR = 0xffffffffu;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace brickfield {
 
@@ -249,6 +250,7 @@ FieldUpdate FieldUpdatePlanner::plan(const std::vector<FieldWindow>& windows, st
       if (!box.isEmpty()) tiles.changeObjects(texelsOf(box, window));
     tiles.append(update);
   }
+  std::ranges::set_difference(update.values, update.candidates, std::back_inserter(update.kept));
   windows_ = windows;
   return update;
 }

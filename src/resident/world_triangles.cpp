@@ -76,6 +76,7 @@ WorldTriangles::WorldTriangles(const Scene& scene, const SceneFields& fields, co
     if (isUsed[m])
       for (const Primitive& primitive : scene.meshes[m].primitives) primitiveBounds_[m].emplace_back(primitive);
   fit(triangles_, "world_triangles", 0);
+  fit(faces_, "world_faces", 0);
   fit(instances_, "world_instances", 0);
   fit(chunks_, "world_gather_chunks", 0);
 }
@@ -92,6 +93,7 @@ void WorldTriangles::layOut(const std::vector<Placement>& drawn) {
   ranges_ = std::move(ranges);
   triangleCount_ = static_cast<std::uint32_t>(count);
   fit(triangles_, "world_triangles", count * sizeof(shared::WorldTriangle));
+  fit(faces_, "world_faces", count * sizeof(shared::WorldFace));
   fit(instances_, "world_instances", drawn.size() * sizeof(shared::WorldInstance));
   rows_.assign(drawn.size(), {});
   settled_.clear();
@@ -195,6 +197,7 @@ void WorldTriangles::settle() {
 
 void WorldTriangles::bindTables() const {
   triangles_.bindStorage(shared::kGatherTriangleBinding);
+  faces_.bindStorage(shared::kGatherFaceBinding);
   instances_.bindStorage(shared::kGatherInstanceBinding);
   topology_.triangles().bindStorage(shared::kGatherTopologyBinding);
   chunks_.bindStorage(shared::kGatherChunkBinding);
@@ -206,7 +209,7 @@ void WorldTriangles::bindFans() const {
 }
 
 std::size_t WorldTriangles::bytes() const {
-  return topology_.bytes() + triangles_.bytes() + instances_.bytes() + chunks_.bytes();
+  return topology_.bytes() + triangles_.bytes() + faces_.bytes() + instances_.bytes() + chunks_.bytes();
 }
 
 } // namespace brickfield

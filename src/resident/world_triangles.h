@@ -97,7 +97,7 @@ private:
   glm::dvec3 anchorWorld_{0};
   std::uint32_t triangleCount_ = 0, triangleChunks_ = 0, vertexChunks_ = 0;
   bool isLaidOut_ = false, isNew_ = false;
-  Buffer triangles_, instances_, chunks_;
+  Buffer triangles_, faces_, instances_, chunks_;
 };
 
 } // namespace brickfield

@@ -19,9 +19,9 @@ std::size_t texelsOf(const FieldWindow& window) {
   return static_cast<std::size_t>(window.texels) * window.texels * window.texels;
 }
 
-constexpr std::array<const char*, ExactField::kLists> kListLabels = {"field_key_tiles",       "field_row_tiles",
-                                                                     "field_column_tiles",    "field_depth_tiles",
-                                                                     "field_candidate_tiles", "field_value_tiles"};
+constexpr std::array<const char*, ExactField::kLists> kListLabels = {
+    "field_key_tiles",       "field_row_tiles",   "field_column_tiles", "field_depth_tiles",
+    "field_candidate_tiles", "field_value_tiles", "field_kept_tiles"};
 
 } // namespace
 
@@ -46,7 +46,7 @@ bool ExactField::fit(const std::vector<FieldWindow>& windows) {
   nodes_ = Buffer("field_nodes", words);
   seeds_ = Buffer("field_seeds", words / 8);
   sweeps_ = Buffer("field_sweeps", words / 8);
-  candidates_ = Buffer("field_candidates", words / 8);
+  candidates_ = Buffer("field_candidates", words / 8 + words / 16); // and their distances, as halves
   tiles_ = Buffer("field_tiles", texels / shared::FIELD_TILE_TEXELS * sizeof(shared::FieldTile));
   tiles_.clear(0);
   for (std::size_t i = 0; i < windows.size(); ++i) {
@@ -74,6 +74,7 @@ void ExactField::prepare(const std::vector<FieldWindow>& windows, const FieldWor
   uploadList(List::Depths, work.tiles.depths);
   uploadList(List::Candidates, work.tiles.candidates);
   uploadList(List::Values, work.tiles.values);
+  uploadList(List::Kept, work.tiles.kept);
   splats_.growTo(work.splats.size() * sizeof(shared::FieldSplat));
   splats_.upload(0, work.splats);
   splatCount_ = static_cast<std::uint32_t>(work.splats.size());
@@ -96,6 +97,7 @@ void ExactField::prepare(const std::vector<FieldWindow>& windows, const FieldWor
     firstTexel += static_cast<std::uint32_t>(texelsOf(window));
   }
   params.counts = {windows.size(), triangleBits, work.sdfInstanceCount, ++update_};
+  params.coarse.x = firstTexel / 8;
   params.anchor = glm::vec4(work.anchorWorld, 0);
   params_.uploadValue(params);
 }

@@ -99,7 +99,9 @@ void FieldCandidatesPass::record(const ExactField& field, const Buffer& triangle
 
 FieldResolvePass::FieldResolvePass(ShaderLibrary& shaders)
     : evaluate_(loadCompute(shaders, "passes/field_evaluate.comp.glsl")),
-      resolve_(loadCompute(shaders, "passes/field_resolve.comp.glsl")),
+      refine_(loadCompute(shaders, "passes/field_refine.comp.glsl")),
+      farValues_(loadCompute(shaders, "passes/field_far_values.comp.glsl")),
+      far_(loadCompute(shaders, "passes/field_far.comp.glsl")),
       objects_(loadCompute(shaders, "passes/field_objects.comp.glsl")) {}
 
 PassDeclaration FieldResolvePass::declare() {
@@ -119,16 +121,21 @@ void FieldResolvePass::record(const ExactField& field, const Buffer& triangles, 
   field.bindIds();
   field.bindCandidates();
   field.bindTiles();
-  field.bindList(ExactField::List::Candidates);
-  dispatchList(*evaluate_, field.lengthOf(ExactField::List::Candidates));
   field.bindNodes();
-  field.bindList(ExactField::List::Values);
   for (std::size_t cascade = 0; cascade < field.windows().size(); ++cascade)
     field.distances(cascade).bindImage(static_cast<GLuint>(cascade), 0, GL_READ_WRITE);
-  for (int stage = 0; stage < 3; ++stage) {
+  field.bindList(ExactField::List::Candidates);
+  dispatchList(*evaluate_, field.lengthOf(ExactField::List::Candidates));
+  betweenDispatches();
+  refine_->set("isKept", false);
+  dispatchList(*refine_, field.lengthOf(ExactField::List::Candidates));
+  field.bindList(ExactField::List::Kept);
+  refine_->set("isKept", true);
+  dispatchList(*refine_, field.lengthOf(ExactField::List::Kept));
+  field.bindList(ExactField::List::Values);
+  for (Program* program : {farValues_.get(), far_.get()}) {
     betweenDispatches();
-    resolve_->set("stage", stage);
-    dispatchList(*resolve_, field.lengthOf(ExactField::List::Values));
+    dispatchList(*program, field.lengthOf(ExactField::List::Values));
   }
   if (scene.sdfInstanceCount() == 0) return;
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

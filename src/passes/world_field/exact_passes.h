@@ -42,7 +42,7 @@ public:
   void record(const ExactField& field, const Buffer& triangles, const ResidentScene& scene);
 
 private:
-  std::shared_ptr<Program> evaluate_, resolve_, objects_;
+  std::shared_ptr<Program> evaluate_, refine_, farValues_, far_, objects_;
 };
 
 } // namespace brickfield

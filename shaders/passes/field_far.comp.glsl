@@ -1,0 +1,140 @@
+// What the band's rounds left: between the coarse values in tiles that a surface reaches; elsewhere the range with the
+// sign of the first tile along an axis that one reaches. Fine texels whose own sign is not sure ask for it.
+#include "lib/field_far.glsl"
+
+layout(local_size_x = 128) in;
+
+layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
+layout(std430, binding = kFieldIdBinding) readonly buffer IdBlock { uint ids[]; };
+layout(std430, binding = kFieldCandidateBinding) readonly buffer CandidateBlock { uint candidates[]; };
+
+uniform uint listLength;
+
+const int APRON = COARSE_TILE + 2;
+shared float coarseTexels[APRON * APRON * APRON];
+shared uint coarseNodes[COARSE_TILE_TEXELS];
+shared int reached[6];
+
+float coarseValue(FieldCascade cascade, ivec3 coarse) {
+  uint word = coarseWord(cascade, coarse);
+  vec2 pair = unpackHalf2x16(candidates[coarseDistanceWord(word)]);
+  return (word & 1u) == 0u ? pair.x : pair.y;
+}
+
+// Of a reached tile: the sign on its side at `coarseAt`; what has no candidate is nearer to the coarse texel nearest to
+// a surface than to any surface.
+bool isInsideAt(FieldCascade cascade, FieldTile tile, ivec3 firstCoarse, ivec3 coarseAt) {
+  float texels = coarseValue(cascade, firstCoarse + coarseAt);
+  if (texels == UNKNOWN_TEXELS)
+    texels = coarseValue(cascade, firstCoarse + cubeIndex(int(tile.nearestTexel), COARSE_TILE));
+  return texels < 0.0;
+}
+
+// A fine texel whose sign is better asked for than its own.
+void reviseSign(uint cascadeIndex, FieldCascade cascade, ivec3 lattice) {
+  uint word = nodes[texelWord(cascade, lattice)], id = ids[texelWord(cascade, lattice)];
+  if ((word & SIGNED) != 0u) return;
+  WorldTriangle t = triangles[id & ~FIELD_ID_FINAL];
+  if (!isClosed(t)) return;
+  vec3 point = texelCenter(cascade, lattice);
+  TriangleHit hit = closestOnTriangle(point, t.a.xyz, t.b.xyz, t.c.xyz);
+  bool isInside = isInsideFar(cascade, t, point, hit);
+  if (isInside == ((word & FIELD_NODE_INSIDE) != 0u)) return;
+  float texels = sqrt(hit.squared) * cascade.texel.y;
+  store(cascadeIndex, lattice, isInside ? -texels : sureTexels(texels, 0.0), word ^ FIELD_NODE_INSIDE);
+}
+
+void load(ListedTile tile, FieldCascade cascade, float unknown) {
+  ivec3 firstCoarse = tile.firstTexel / COARSE, first = cascade.window.xyz / COARSE;
+  for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += 128) {
+    // Beyond the window's border stand the values of the border.
+    ivec3 coarse = clamp(firstCoarse - 1 + cubeIndex(i, APRON), first, first + cascade.window.w / COARSE - 1);
+    float texels = coarseValue(cascade, coarse);
+    coarseTexels[i] = texels == UNKNOWN_TEXELS ? unknown : texels;
+  }
+  if (gl_LocalInvocationIndex < COARSE_TILE_TEXELS) {
+    uint triangle = candidates[coarseWord(cascade, firstCoarse) + gl_LocalInvocationIndex];
+    coarseNodes[gl_LocalInvocationIndex] = triangle == FIELD_NONE ? 0u : nodeOf(triangles[triangle]);
+  }
+  barrier();
+}
+
+// Texels between the eight coarse ones around a texel of the tile.
+float between(ivec3 at) {
+  ivec3 lowest = (at + 1) >> 1;                          // of the eight, in the apron
+  vec3 part = mix(vec3(0.75), vec3(0.25), vec3(at & 1)); // of the upper ones: centres lie at quarters
+  int c = (lowest.z * APRON + lowest.y) * APRON + lowest.x;
+  const int Y = APRON, Z = APRON * APRON;
+  vec4 alongX = mix(vec4(coarseTexels[c], coarseTexels[c + Y], coarseTexels[c + Z], coarseTexels[c + Y + Z]),
+                    vec4(coarseTexels[c + 1], coarseTexels[c + Y + 1], coarseTexels[c + Z + 1],
+                         coarseTexels[c + Y + Z + 1]),
+                    part.x);
+  vec2 alongY = mix(alongX.xz, alongX.yw, part.y);
+  return mix(alongY.x, alongY.y, part.z);
+}
+
+void resolveReached(ListedTile tile, FieldCascade cascade) {
+  FieldTile kept = tiles[tile.word];
+  bool isBand = isBandTile(kept);
+  bool isInside = coarseValue(cascade, tile.firstTexel / COARSE + cubeIndex(int(kept.nearestTexel), COARSE_TILE)) < 0.0;
+  load(tile, cascade, isInside ? -cascade.texel.z : cascade.texel.z);
+  for (int i = int(gl_LocalInvocationIndex); i < int(FIELD_TILE_TEXELS); i += 128) {
+    ivec3 at = cubeIndex(i, int(FIELD_TILE)), lattice = tile.firstTexel + at;
+    if (isBand && (nodes[texelWord(cascade, lattice)] & FINE) != 0u) {
+      reviseSign(tile.cascade, cascade, lattice);
+      continue;
+    }
+    float texels = between(at);
+    ivec3 coarse = at >> 1;
+    uint node = coarseNodes[(coarse.z * COARSE_TILE + coarse.y) * COARSE_TILE + coarse.x];
+    store(tile.cascade, lattice, texels, node | (texels < 0.0 ? FIELD_NODE_INSIDE : 0u));
+  }
+}
+
+// The direction from the tile, 0 to 5, along which to look for a reached tile.
+ivec3 stepOf(int direction) {
+  return ivec3(direction >> 1 == 0, direction >> 1 == 1, direction >> 1 == 2) * ((direction & 1) * 2 - 1);
+}
+
+// Distances, in tiles, to the nearest reached ones along the six directions; none: as many as the window has.
+void findReached(ListedTile tile, FieldCascade cascade) {
+  int count = cascade.window.w >> 3;
+  if (gl_LocalInvocationIndex < 6u) reached[gl_LocalInvocationIndex] = count;
+  barrier();
+  for (int i = int(gl_LocalInvocationIndex); i < 6 * count; i += 128) {
+    int direction = i / count, away = i % count;
+    ivec3 other = (tile.firstTexel >> 3) + stepOf(direction) * away;
+    if (away > 0 && isInWindow(cascade, other * int(FIELD_TILE)) &&
+        isReachedTile(tiles[cascade.buffers.z + tileSlot(cascade, other)]))
+      atomicMin(reached[direction], away);
+  }
+  barrier();
+}
+
+// The sign of the first of these tiles, at the side that looks here.
+void resolveUnreached(ListedTile tile, FieldCascade cascade) {
+  findReached(tile, cascade);
+  bool isInside = false;
+  for (int direction = 0; direction < 6; ++direction) {
+    if (reached[direction] == cascade.window.w >> 3) continue;
+    ivec3 step = stepOf(direction), other = (tile.firstTexel >> 3) + step * reached[direction];
+    // The middle, and on the axis what looks here.
+    ivec3 side = clamp(ivec3(2) - step * 2, ivec3(0), ivec3(COARSE_TILE - 1));
+    isInside = isInsideAt(cascade, tiles[cascade.buffers.z + tileSlot(cascade, other)], other * COARSE_TILE, side);
+    break;
+  }
+  for (int i = int(gl_LocalInvocationIndex); i < int(FIELD_TILE_TEXELS); i += 128)
+    store(tile.cascade, tile.firstTexel + cubeIndex(i, int(FIELD_TILE)), isInside ? -1e9 : 1e9,
+          isInside ? FIELD_NODE_INSIDE : 0u);
+}
+
+void main() {
+  uint index = listIndex();
+  if (index >= listLength) return;
+  ListedTile tile = listedTile(listed[index]);
+  FieldCascade cascade = field.cascades[tile.cascade];
+  if (isReachedTile(tiles[tile.word]))
+    resolveReached(tile, cascade);
+  else
+    resolveUnreached(tile, cascade);
+}
