@@ -5,7 +5,7 @@
 #include "lib/field_grid.glsl"
 #include "lib/field_objects.glsl"
 
-layout(local_size_x = 128) in;
+layout(local_size_x = FIELD_TILE_TEXELS) in; // a texel each
 
 layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
 layout(std430, binding = kFieldNodeBinding) buffer NodeBlock { uint nodes[]; };
@@ -13,8 +13,7 @@ layout(binding = 0, r16f) uniform image3D distances[MOST_CASCADES];
 
 uniform uint listLength;
 
-const uint MOST_OBJECTS = 128u; // of one round
-const int TEXELS_OF_A_THREAD = int(FIELD_TILE_TEXELS) / 128;
+const uint MOST_OBJECTS = FIELD_TILE_TEXELS; // of one round
 const float NO_POINT = -1.0;
 
 shared uvec2 reaching[MOST_OBJECTS]; // distance from the tile, float bits; number
@@ -23,12 +22,10 @@ shared uint reachingCount;
 shared uint farthestBits;                     // largest value in the tile, metres
 shared vec4 surfacePoints[FIELD_TILE_TEXELS]; // of the object at hand, grid; w: distance, metres
 
-// Of the thread's texels.
-float metres[TEXELS_OF_A_THREAD];
-uint owners[TEXELS_OF_A_THREAD];
-ObjectDistance found[TEXELS_OF_A_THREAD];
-
-int texelOfThread(int i) { return i * 128 + int(gl_LocalInvocationIndex); }
+// Of the thread's texel.
+float metres; // to the nearest so far
+uint word;    // of its node
+ObjectDistance found;
 
 // Lists the objects of a round that may be nearer than `most` to a texel of the tile.
 void listObjects(uint first, vec3 tileCenter, float halfDiagonal, float most) {
@@ -53,59 +50,47 @@ void listObjects(uint first, vec3 tileCenter, float halfDiagonal, float most) {
 }
 
 // Each texel for itself.
-void findAlone(FieldObject object, ListedTile tile, FieldCascade cascade) {
-  for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) {
-    ivec3 lattice = tile.firstTexel + cubeIndex(texelOfThread(i), int(FIELD_TILE));
-    vec3 point = field.anchor.xyz + texelCenter(cascade, lattice);
-    surfacePoints[texelOfThread(i)].w = NO_POINT;
-    found[i].isSearched = false;
-    found[i].side = 1.0;
-    found[i].lower = found[i].upper = boxDistance(object.instance, point);
-    if (metres[i] > 0.0 && found[i].lower > metres[i]) continue;
-    found[i] = boundDistance(object, point, metres[i]);
-    if (!found[i].isSearched) continue;
-    searchSurface(object, found[i], found[i].surfaceGrid, MOST_STEPS, true);
-    surfacePoints[texelOfThread(i)] = vec4(found[i].surfaceGrid, found[i].upper);
-  }
+void findAlone(FieldObject object, vec3 point) {
+  surfacePoints[gl_LocalInvocationIndex].w = NO_POINT;
+  found.isSearched = false;
+  found.side = 1.0;
+  found.lower = found.upper = boxDistance(object.instance, point);
+  if (metres > 0.0 && found.lower > metres) return;
+  found = boundDistance(object, point, metres);
+  if (!found.isSearched) return;
+  searchSurface(object, found, found.surfaceGrid, MOST_STEPS, true);
+  surfacePoints[gl_LocalInvocationIndex] = vec4(found.surfaceGrid, found.upper);
 }
 
 // Once more from the surface point of that neighbour in the tile whose is nearest, where it is nearer than the own one:
 // between two surfaces, and around corners, not every texel finds the right one.
 void findFromNeighbours(FieldObject object) {
-  for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) {
-    float least = found[i].upper - 2.0 * ACCURATE_TEXELS * object.texelMetres;
-    if (!found[i].isSearched || least < found[i].lower) continue;
-    ivec3 at = cubeIndex(texelOfThread(i), int(FIELD_TILE));
-    vec3 start = vec3(0.0);
-    bool isNearer = false;
-    for (int side = 0; side < 6; ++side) {
-      ivec3 beside = at + ivec3(side >> 1 == 0, side >> 1 == 1, side >> 1 == 2) * ((side & 1) * 2 - 1);
-      if (any(lessThan(beside, ivec3(0))) || any(greaterThanEqual(beside, ivec3(FIELD_TILE)))) continue;
-      vec4 other = surfacePoints[indexInTile(beside, int(FIELD_TILE))];
-      float away = lengthWorld(object.instance, found[i].pointGrid - other.xyz);
-      if (other.w == NO_POINT || away >= least) continue;
-      least = away;
-      start = other.xyz;
-      isNearer = true;
-    }
-    if (isNearer) searchSurface(object, found[i], start, MOST_STEPS_FROM_NEIGHBOUR, false);
+  float least = found.upper - 2.0 * ACCURATE_TEXELS * object.texelMetres;
+  if (!found.isSearched || least < found.lower) return;
+  ivec3 at = cubeIndex(int(gl_LocalInvocationIndex), int(FIELD_TILE));
+  vec3 start = vec3(0.0);
+  bool isNearer = false;
+  for (int side = 0; side < 6; ++side) {
+    ivec3 beside = at + ivec3(side >> 1 == 0, side >> 1 == 1, side >> 1 == 2) * ((side & 1) * 2 - 1);
+    if (any(lessThan(beside, ivec3(0))) || any(greaterThanEqual(beside, ivec3(FIELD_TILE)))) continue;
+    vec4 other = surfacePoints[indexInTile(beside, int(FIELD_TILE))];
+    float away = lengthWorld(object.instance, found.pointGrid - other.xyz);
+    if (other.w == NO_POINT || away >= least) continue;
+    least = away;
+    start = other.xyz;
+    isNearer = true;
   }
+  if (isNearer) searchSurface(object, found, start, MOST_STEPS_FROM_NEIGHBOUR, false);
 }
 
+// returns whether the object is what is nearest to the texel
 bool join(FieldObject object, float range) {
-  uint node = uint(object.instance.ids.x) + 1u;
-  bool isChanged = false;
-  for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) {
-    float distance = max(signedDistance(object, found[i]), -range);
-    // What the word says of meshes stays: updates to come ask for it.
-    uint ofMeshes = owners[i] & ~FIELD_NODE_MASK, owner = owners[i] & FIELD_NODE_MASK;
-    if (distance < metres[i] || (distance == metres[i] && distance < range && node < owner)) {
-      metres[i] = distance;
-      owners[i] = node | ofMeshes;
-      isChanged = true;
-    }
-  }
-  return isChanged;
+  uint node = uint(object.instance.ids.x) + 1u, owner = word & FIELD_NODE_MASK;
+  float distance = max(signedDistance(object, found), -range);
+  if (distance > metres || (distance == metres && (distance >= range || node >= owner))) return false;
+  metres = distance;
+  word = node | (word & ~FIELD_NODE_MASK); // what it says of meshes stays: updates to come ask for it
+  return true;
 }
 
 void main() {
@@ -114,11 +99,10 @@ void main() {
   ListedTile tile = listedTile(listed[index]);
   FieldCascade cascade = field.cascades[tile.cascade];
   float texelMetres = cascade.texel.x;
-  for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) {
-    ivec3 lattice = tile.firstTexel + cubeIndex(texelOfThread(i), int(FIELD_TILE));
-    metres[i] = imageLoad(distances[tile.cascade], lattice & (cascade.window.w - 1)).r * texelMetres;
-    owners[i] = nodes[texelWord(cascade, lattice)];
-  }
+  ivec3 lattice = tile.firstTexel + cubeIndex(int(gl_LocalInvocationIndex), int(FIELD_TILE));
+  vec3 point = field.anchor.xyz + texelCenter(cascade, lattice);
+  metres = imageLoad(distances[tile.cascade], lattice & (cascade.window.w - 1)).r * texelMetres;
+  word = nodes[texelWord(cascade, lattice)];
   // In rounds; objects farther than the tile's largest value can change nothing.
   vec3 tileCenter = field.anchor.xyz + (vec3(tile.firstTexel) + 0.5 * float(FIELD_TILE)) * texelMetres;
   float halfDiagonal = 0.8660255 * float(FIELD_TILE - 1u) * texelMetres;
@@ -126,14 +110,12 @@ void main() {
   for (uint first = 0u; first < field.counts.z; first += MOST_OBJECTS) {
     if (gl_LocalInvocationIndex == 0u) farthestBits = 0u;
     barrier();
-    float farthest = 0.0;
-    for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) farthest = max(farthest, metres[i]);
-    atomicMax(farthestBits, floatBitsToUint(farthest)); // positive floats are ordered as their bits
+    atomicMax(farthestBits, floatBitsToUint(max(metres, 0.0))); // positive floats are ordered as their bits
     barrier();
     listObjects(first, tileCenter, halfDiagonal, uintBitsToFloat(farthestBits));
     for (uint r = 0u; r < reachingCount; ++r) {
       FieldObject object = fieldObject(sdfInstances[nearestFirst[r]], texelMetres);
-      findAlone(object, tile, cascade);
+      findAlone(object, point);
       // The same for all threads.
       if (boxDistance(object.instance, tileCenter) - halfDiagonal < BAND_TEXELS * texelMetres) {
         barrier();
@@ -144,9 +126,6 @@ void main() {
     }
   }
   if (!isChanged) return;
-  for (int i = 0; i < TEXELS_OF_A_THREAD; ++i) {
-    ivec3 lattice = tile.firstTexel + cubeIndex(texelOfThread(i), int(FIELD_TILE));
-    nodes[texelWord(cascade, lattice)] = owners[i];
-    imageStore(distances[tile.cascade], lattice & (cascade.window.w - 1), vec4(metres[i] * cascade.texel.y));
-  }
+  nodes[texelWord(cascade, lattice)] = word;
+  imageStore(distances[tile.cascade], lattice & (cascade.window.w - 1), vec4(metres * cascade.texel.y));
 }

@@ -86,7 +86,7 @@ SHARED_ASSERT_SIZE(FieldSplat, 16)
 
 // Parts of large triangles: boxes of 16^3 texels, counted from the window's first texel.
 SHARED_CONST uint SPLAT_PART_TEXELS = 16;
-SHARED_CONST uint SPLAT_PART_CAPACITY = 262144;
+SHARED_CONST uint SPLAT_PART_CAPACITY = 65536;
 
 SHARED_END
 

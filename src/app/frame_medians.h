@@ -37,7 +37,7 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Draws frames 0, 1, ... until a GPU that was idle has its clock up: for a tenth of a second, and two at least, so
+/// Draws frames 0, 1, ... until a GPU that was idle has its clock up: for half a second, and two at least, so
 /// that the first, which makes everything, is none of those that count.
 ///
 /// draw     of a frame's number; ends by waiting for the GPU
@@ -45,7 +45,7 @@ private:
 /// error    Cancelled
 template <typename Draw>
 int warmUp(const Draw& draw) {
-  constexpr double kMilliseconds = 100;
+  constexpr double kMilliseconds = 500; // after 100 an H200 was seen at a third of its clock
   constexpr int kMostFrames = 1000;
   const Stopwatch stopwatch;
   int frame = 0;
