@@ -1,6 +1,7 @@
 // The paper's figure 5 (Tan and others 2022): a teapot on a circular path, whose surface ghosts in RTSDF where it was.
 // The exact field keeps no ghost: after each frame it is to the bit what it would be without a past.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <glm/gtc/constants.hpp>
@@ -14,7 +15,7 @@ namespace brickfield::test {
 namespace {
 
 constexpr int kFrames = 60;
-constexpr double kTurnSeconds = 1; // once around in all frames
+constexpr double kTurnSeconds = 1;
 
 int addNode(Scene& scene, const std::string& name, int parent, int mesh = -1) {
   const int number = static_cast<int>(scene.nodes.size());
@@ -66,6 +67,12 @@ Scene makeTeapotPath() {
   return scene;
 }
 
+/// Four times around, at first by less than a texel, at last by more than half its own length a frame.
+double secondsOf(int frame) {
+  const double part = static_cast<double>(frame) / kFrames;
+  return std::fmod(4 * part * part, 1.0) * kTurnSeconds;
+}
+
 std::size_t differingTexels(const FieldSnapshot& a, const FieldSnapshot& b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.distances.size(); ++i)
@@ -84,7 +91,7 @@ TEST_F(TeapotPath, EveryFrameEqualsTheFieldMadeFromNothing) {
   FieldSnapshot before;
   std::size_t mostTiles = 0, mostChanged = 0;
   for (int frame = 0; frame < kFrames; ++frame) {
-    const double seconds = kTurnSeconds * frame / kFrames;
+    const double seconds = secondsOf(frame);
     moving.frameAt(seconds);
     WorldFieldStage fromNothing(scene, {}, shape);
     fromNothing.frameAt(seconds);
@@ -97,7 +104,7 @@ TEST_F(TeapotPath, EveryFrameEqualsTheFieldMadeFromNothing) {
     if (frame > 0) {
       mostTiles = std::max<std::size_t>(mostTiles, moving.field().exact().lengthOf(ExactField::List::Keys));
       const std::size_t changed = differingTexels(updated, before);
-      EXPECT_GT(changed, 1000u) << "frame " << frame;
+      EXPECT_GT(changed, 100u) << "frame " << frame;
       mostChanged = std::max(mostChanged, changed);
     }
     before = updated;
