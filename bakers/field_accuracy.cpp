@@ -18,6 +18,7 @@ constexpr double kSidelessTexels = 1e-3; // nearer to a surface than this, sides
 // Of two surfaces about equally near a field may take the other one. Near surfaces by its error; beyond, it may lie
 // between texels twice as large, whose nearest surfaces differ by their diagonal.
 constexpr double kTieTexels = 0.05, kFarTieTexels = 3.5;
+constexpr double kThickTexels = 1; // thinner parts count as so thick
 constexpr double kBehindTexels = 0.01;
 
 enum class Judgement : std::uint8_t { Outside, Near, Far, Overlap, WrongSign };
@@ -38,17 +39,19 @@ glm::dvec3 centerAnchored(const FieldVolume& volume, std::size_t texel) {
 
 JudgedTexel judge(const FieldVolume& volume, float value, glm::dvec3 pointWorld, const FieldOracle& oracle,
                   SheetMeaning sheets) {
-  const FieldTruth truth = oracle.at(pointWorld);
   const double h = volume.texelSize, range = volume.rangeTexels;
+  const FieldTruth truth = oracle.at(pointWorld, sheets == SheetMeaning::Thick ? h : 0);
   const bool isSideless = sheets == SheetMeaning::Unsigned && !truth.onClosedComponent();
   JudgedTexel texel;
   texel.toSurface = truth.unsignedDistance() / h;
-  texel.hasSign = truth.onClosedComponent() && texel.toSurface > kSidelessTexels;
+  // Where thin parts are thicker than they are, their surface lies farther out.
+  const double toThickened = truth.thinning > 0 ? std::abs(truth.closedDistance - truth.thinning) / h : texel.toSurface;
+  texel.hasSign = truth.onClosedComponent() && std::min(texel.toSurface, toThickened) > kSidelessTexels;
   if (truth.insideClosed && !truth.onClosedComponent()) {
     texel.judgement = Judgement::Overlap; // a sheet is nearest, within the solid that is
     return texel;
   }
-  if (texel.hasSign && (value < 0) != truth.insideClosed) {
+  if (texel.hasSign && (value < 0) != (truth.insideClosed || truth.closedDistance < truth.thinning)) {
     const double tie = texel.toSurface <= kNearTexels ? kTieTexels : kFarTieTexels;
     const double reach = (std::max(texel.toSurface, std::abs(double{value})) + tie) * h;
     const bool isBuried = truth.openDistance <= reach || oracle.seesBuriedSurface(pointWorld, reach, kBehindTexels * h);
@@ -59,6 +62,10 @@ JudgedTexel judge(const FieldVolume& volume, float value, glm::dvec3 pointWorld,
   texel.truth = std::clamp((isSideless ? truth.openDistance : truth.unionDistance(halfThickness)) / h, -range, range);
   texel.error = (isSideless ? std::abs(value) : value) - texel.truth;
   texel.judgement = texel.toSurface <= kNearTexels ? Judgement::Near : Judgement::Far;
+  // Within a solid that another reaches into nothing near tells how thick it is.
+  if (sheets == SheetMeaning::Thick && truth.insideAny && texel.toSurface <= kThickTexels &&
+      std::abs(texel.error) > kTieTexels && oracle.seesBuriedSurface(pointWorld, 2 * h, kBehindTexels * h))
+    texel.judgement = Judgement::Overlap;
   return texel;
 }
 

@@ -200,7 +200,29 @@ FieldOracle::FieldOracle(const Scene& scene, const Pose& pose, const std::vector
 FieldOracle::~FieldOracle() = default;
 FieldOracle::FieldOracle(FieldOracle&&) noexcept = default;
 
-FieldTruth FieldOracle::at(glm::dvec3 pointWorld) const {
+double FieldOracle::thinningAt(glm::dvec3 pointWorld, const FieldTruth& truth, double texelMetres) const {
+  const double share = 2 - truth.closedDistance / texelMetres;
+  if (!(truth.closedDistance > 0) || !(share > (truth.insideClosed ? 1.5 : 0))) return 0;
+  const auto nearestClosed = [&](glm::dvec3 point, bool& isInside) {
+    Surface::Nearest nearest;
+    for (const auto& part : parts_->closed) {
+      const Surface::Nearest other = part->nearest(point, nearest.distance);
+      if (!(other.distance < nearest.distance)) continue;
+      nearest = other;
+      isInside = part->hasInside(point);
+    }
+    return nearest;
+  };
+  bool isInside = false;
+  const glm::dvec3 place = nearestClosed(pointWorld, isInside).pointWorld;
+  const glm::dvec3 outwards = glm::normalize(truth.insideClosed ? place - pointWorld : pointWorld - place);
+  const glm::dvec3 behind = place - texelMetres * outwards;
+  const Surface::Nearest back = nearestClosed(behind, isInside);
+  if (isInside || !(back.distance > 0) || glm::dot(behind - back.pointWorld, outwards) > -0.3 * back.distance) return 0;
+  return 0.5 * std::min(share, 1.0) * std::min(back.distance, texelMetres);
+}
+
+FieldTruth FieldOracle::at(glm::dvec3 pointWorld, double texelMetres) const {
   FieldTruth truth;
   if (parts_->open) {
     const Surface::Nearest nearest = parts_->open->nearest(pointWorld, std::numeric_limits<double>::infinity());
@@ -216,6 +238,7 @@ FieldTruth FieldOracle::at(glm::dvec3 pointWorld) const {
     truth.insideClosed = isInside;
     if (nearest.distance <= truth.openDistance) truth.node = nearest.node;
   }
+  if (texelMetres > 0) truth.thinning = thinningAt(pointWorld, truth, texelMetres);
   return truth;
 }
 
@@ -232,9 +255,11 @@ bool FieldOracle::seesBuriedSurface(glm::dvec3 pointWorld, double reach, double 
   });
 }
 
-std::vector<FieldTruth> FieldOracle::at(std::span<const glm::dvec3> pointsWorld) const {
+std::vector<FieldTruth> FieldOracle::at(std::span<const glm::dvec3> pointsWorld,
+                                        std::span<const double> texelMetres) const {
   std::vector<FieldTruth> truths(pointsWorld.size());
-  tbb::parallel_for(std::size_t{0}, truths.size(), [&](std::size_t i) { truths[i] = at(pointsWorld[i]); });
+  tbb::parallel_for(std::size_t{0}, truths.size(),
+                    [&](std::size_t i) { truths[i] = at(pointsWorld[i], texelMetres.empty() ? 0 : texelMetres[i]); });
   return truths;
 }
 

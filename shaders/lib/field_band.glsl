@@ -4,6 +4,9 @@
 // Four texels, from a texel's centre to the next coarse one's (0.87), half a sheet, and what the coarse candidate may
 // err by.
 const float BAND_TEXELS = 6.5;
+// Rank, half a texel more than the distance from closed surfaces, up to which texels of the band are evaluated
+// themselves.
+const float FINE_TEXELS = 5.0;
 bool isBandTile(FieldTile tile) { return uintBitsToFloat(tile.nearestBits) < BAND_TEXELS; }
 
 // Any of its coarse texels found a surface within reach.

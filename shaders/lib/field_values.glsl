@@ -7,8 +7,7 @@ layout(binding = 0, r16f) uniform writeonly image3D distances[MOST_CASCADES];
 
 // Of a node's word: the texel was evaluated at full resolution; and is so near that others may ask it for its sign.
 const uint FINE = 0x40000000u, SIGNED = 0x20000000u;
-// Ranks, which are half a texel more than the distance from closed surfaces.
-const float FINE_TEXELS = 5.0, SIGNED_TEXELS = 3.5;
+const float SIGNED_TEXELS = 3.5; // rank
 // Farther away than this, candidates name a triangle that may lie up to a texel behind the nearest, and values lie
 // between those of coarse texels; a ray must not step through, so as much is taken off outside
 // (tests/oracle/world_field/exact_field_test.cpp).
@@ -39,12 +38,12 @@ uint nodeOf(WorldTriangle t) { return (t.codes.w >> WORLD_TRIANGLE_NODE_SHIFT) +
 bool isClosed(WorldTriangle t) { return (t.codes.w & WORLD_TRIANGLE_CLOSED) != 0u; }
 
 // The value of a texel whose nearest triangle is known for sure.
-void storeFine(uint cascadeIndex, ivec3 lattice, WorldTriangle t, vec3 point, float sheetHalf) {
+void storeFine(uint cascadeIndex, ivec3 lattice, WorldTriangle t, vec3 point, float sheetHalf, float thin) {
   FieldCascade cascade = field.cascades[cascadeIndex];
   float texels = signedTriangleDistance(t, point, sheetHalf) * cascade.texel.y;
   bool closed = isClosed(t);
   bool isInside = closed && texels < 0.0;
   bool isSigned = abs(texels) + cascade.texel.w <= SIGNED_TEXELS;
-  store(cascadeIndex, lattice, isInside ? texels : sureTexels(texels, closed ? 0.0 : cascade.texel.w),
+  store(cascadeIndex, lattice, (isInside ? texels : sureTexels(texels, closed ? 0.0 : cascade.texel.w)) - thin,
         nodeOf(t) | FINE | (isSigned ? SIGNED : 0u) | (isInside ? FIELD_NODE_INSIDE : 0u));
 }

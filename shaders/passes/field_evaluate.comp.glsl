@@ -1,10 +1,9 @@
-// The band at full resolution, first round. A texel with a key has its nearest triangle (to a quantum of the key's
-// distance) and is done. One without takes the nearest of the 27 keys around it, where there are none of the eight
-// coarse candidates; field_refine finishes it. Texels farther away than matters here are left to field_far.
+// The band at full resolution, first round: nearest triangles. A texel with a key has its own, to a quantum of the key's
+// distance. One without takes the nearest of the 27 keys around it, where there are none of the eight coarse
+// candidates. Texels farther away than matters here are left to field_far.
 #include "lib/field_band.glsl"
 #include "lib/field_keys.glsl"
 #include "lib/field_open.glsl"
-#include "lib/field_values.glsl"
 
 layout(local_size_x = OPEN_THREADS) in;
 
@@ -69,11 +68,10 @@ void main() {
   uint mine = 0u; // texels without a key
   for (int k = 0; k < OWN_TEXELS; ++k) {
     int i = k * int(OPEN_THREADS) + int(gl_LocalInvocationIndex);
-    ivec3 at = cubeIndex(i, int(FIELD_TILE)), lattice = tile.firstTexel + at;
+    ivec3 at = cubeIndex(i, int(FIELD_TILE));
     uint triangle = keyIds[((at.z + 1) * KEY_APRON + at.y + 1) * KEY_APRON + at.x + 1];
     if (triangle != FIELD_NONE) {
-      storeFine(tile.cascade, lattice, triangles[triangle], texelCenter(cascade, lattice), sheetHalf);
-      ids[tile.word * FIELD_TILE_TEXELS + uint(i)] = triangle | FIELD_ID_FINAL;
+      ids[tile.word * FIELD_TILE_TEXELS + uint(i)] = triangle | FIELD_ID_KEYED;
       continue;
     }
     ivec3 coarse = at >> 1;
@@ -81,7 +79,6 @@ void main() {
       mine |= 1u << k;
     } else {
       ids[tile.word * FIELD_TILE_TEXELS + uint(i)] = FIELD_NONE;
-      nodes[texelWord(cascade, lattice)] = 0u;
     }
   }
   listOpen(mine);

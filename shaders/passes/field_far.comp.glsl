@@ -34,7 +34,7 @@ bool isInsideAt(FieldCascade cascade, FieldTile tile, ivec3 firstCoarse, ivec3 c
 void reviseSign(uint cascadeIndex, FieldCascade cascade, ivec3 lattice) {
   uint word = nodes[texelWord(cascade, lattice)], id = ids[texelWord(cascade, lattice)];
   if ((word & SIGNED) != 0u) return;
-  WorldTriangle t = triangles[id & ~FIELD_ID_FINAL];
+  WorldTriangle t = triangles[id & ~FIELD_ID_KEYED];
   if (!isClosed(t)) return;
   vec3 point = texelCenter(cascade, lattice);
   TriangleHit hit = closestOnTriangle(point, t.a.xyz, t.b.xyz, t.c.xyz);

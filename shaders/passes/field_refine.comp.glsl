@@ -1,5 +1,5 @@
 // The band at full resolution, second round: each texel without a key takes the nearest of what it and its six
-// neighbours found.
+// neighbours found; then all get their values.
 #include "lib/field_band.glsl"
 #include "lib/field_open.glsl"
 #include "lib/field_values.glsl"
@@ -11,10 +11,10 @@ layout(std430, binding = kFieldIdBinding) readonly buffer IdBlock { uint ids[]; 
 layout(std430, binding = kFieldTileBinding) readonly buffer TileBlock { FieldTile tiles[]; };
 
 uniform uint listLength;
-uniform bool isKept; // the tiles' nearest triangles stand from an earlier update, and all their values are made again
 
 const int APRON = int(FIELD_TILE) + 2;
 shared uint apron[APRON * APRON * APRON];
+
 bool isBandAt(FieldCascade cascade, ivec3 lattice) {
   return isBandTile(tiles[cascade.buffers.z + tileSlot(cascade, lattice >> 3)]);
 }
@@ -35,8 +35,11 @@ void load(ListedTile tile, FieldCascade cascade) {
   barrier();
   uint mine = 0u;
   for (int k = 0; k < OWN_TEXELS; ++k) {
-    uint id = apron[apronIndex(k * int(OPEN_THREADS) + int(gl_LocalInvocationIndex))];
-    if (isKept ? id != FIELD_NONE : (id & FIELD_ID_FINAL) == 0u) mine |= 1u << k;
+    int texel = k * int(OPEN_THREADS) + int(gl_LocalInvocationIndex);
+    if (apron[apronIndex(texel)] != FIELD_NONE)
+      mine |= 1u << k;
+    else // nothing is known of it here
+      nodes[texelWord(cascade, tile.firstTexel + cubeIndex(texel, int(FIELD_TILE)))] = 0u;
   }
   listOpen(mine);
   barrier();
@@ -49,7 +52,33 @@ int faceStep(int face) {
 }
 
 void considerAt(int at, vec3 point, float sheetHalf, inout Nearest nearest) {
-  if (apron[at] != FIELD_NONE) consider(apron[at] & ~FIELD_ID_FINAL, point, sheetHalf, nearest);
+  if (apron[at] != FIELD_NONE) consider(apron[at] & ~FIELD_ID_KEYED, point, sheetHalf, nearest);
+}
+
+// Closed parts thinner than a texel count as a texel thick, else rays slip through between texels: what is to be taken
+// off. A texel behind the nearest place, seen from outside, lies beyond such a part, by as much as the part is thinner
+// than a texel; each of its sides gives half. One to two texels away the rule fades.
+float thinTexels(FieldCascade cascade, WorldTriangle t, vec3 point) {
+  if (!isClosed(t)) return 0.0;
+  TriangleHit hit = closestOnTriangle(point, t.a.xyz, t.b.xyz, t.c.xyz);
+  float texels = sqrt(hit.squared) * cascade.texel.y, share = 2.0 - texels;
+  if (share <= 0.0) return 0.0;
+  vec3 outwards = pseudonormalOf(t, hit.feature), away = point - hit.closest;
+  bool isInside = dot(away, outwards) < 0.0;
+  if (isInside && texels > 0.5) return 0.0; // of a part that is thick enough
+  bool isOn = hit.squared * cascade.texel.y * cascade.texel.y < 1e-4;
+  vec3 direction = unitOrZero(isOn ? outwards : isInside ? -away : away);
+  vec3 behind = hit.closest - direction * cascade.texel.x;
+  ivec3 lattice = ivec3(floor(behind * cascade.texel.y));
+  if (!isInWindow(cascade, lattice) || !isBandAt(cascade, lattice)) return 0.0;
+  uint id = ids[texelWord(cascade, lattice)];
+  if (id == FIELD_NONE) return 0.0;
+  WorldTriangle back = triangles[id & ~FIELD_ID_KEYED];
+  if (!isClosed(back)) return 0.0;
+  TriangleHit backHit = closestOnTriangle(behind, back.a.xyz, back.b.xyz, back.c.xyz);
+  vec3 backOutwards = unitOrZero(pseudonormalOf(back, backHit.feature)), beyond = behind - backHit.closest;
+  bool isBack = dot(beyond, backOutwards) > 0.0 && dot(backOutwards, direction) < -0.3;
+  return isBack ? 0.5 * min(share, 1.0) * min(length(beyond) * cascade.texel.y, 1.0) : 0.0;
 }
 
 void main() {
@@ -66,11 +95,12 @@ void main() {
     vec3 point = texelCenter(cascade, lattice);
     Nearest nearest = Nearest(FIELD_NONE, 1e30);
     // The texel itself, then its neighbours along the axes.
-    int count = (apron[own] & FIELD_ID_FINAL) == 0u ? 7 : 1;
+    int count = (apron[own] & FIELD_ID_KEYED) == 0u ? 7 : 1;
     for (int n = 0; n < count; ++n) considerAt(own + (n == 0 ? 0 : faceStep(n - 1)), point, sheetHalf, nearest);
     if (nearest.rank > FINE_TEXELS * cascade.texel.x)
       nodes[texelWord(cascade, lattice)] = 0u;
     else
-      storeFine(tile.cascade, lattice, triangles[nearest.triangle], point, sheetHalf);
+      storeFine(tile.cascade, lattice, triangles[nearest.triangle], point, sheetHalf,
+                thinTexels(cascade, triangles[nearest.triangle], point));
   }
 }

@@ -68,8 +68,8 @@ struct FieldTile {
 SHARED_ASSERT_SIZE(FieldTile, 32)
 
 SHARED_CONST uint FIELD_NONE = 0xffffffffu; // no triangle; no key
-// In a texel's nearest triangle: its value is made; else field_refine asks its neighbours.
-SHARED_CONST uint FIELD_ID_FINAL = 0x80000000u;
+// In a texel's nearest triangle: it is from a key; else field_refine asks the neighbours for theirs.
+SHARED_CONST uint FIELD_ID_KEYED = 0x80000000u;
 // A texel's node: number + 1, 0 where nothing is in range; and whether it lies inside a closed mesh.
 SHARED_CONST uint FIELD_NODE_INSIDE = 0x80000000u;
 SHARED_CONST uint FIELD_NODE_MASK = 0x1fffffffu;

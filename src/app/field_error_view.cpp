@@ -57,18 +57,22 @@ RgbImage fieldErrorPicture(const FieldVolumes& field, const FieldPicture& plane,
     throw BadInput("--view", "field-error", "knows the truth of meshes alone; draw them with --sdf none");
   std::span<const FieldVolume> shown(field.cascades);
   if (plane.cascade >= 0) shown = shown.subspan(static_cast<std::size_t>(plane.cascade), 1);
-  std::vector<glm::dvec3> anchored, world;
+  std::vector<FieldSample> samples;
+  std::vector<glm::dvec3> world;
+  std::vector<double> texelMetres;
   for (std::uint32_t y = 0; y < size.y; ++y)
     for (std::uint32_t x = 0; x < size.x; ++x) {
       const double right = x + 0.5 - 0.5 * size.x, up = 0.5 * size.y - (y + 0.5);
-      anchored.push_back(glm::dvec3(plane.centerAnchored) + right * glm::dvec3(plane.rightAnchored) +
-                         up * glm::dvec3(plane.upAnchored));
-      world.push_back(anchored.back() + field.anchorWorld);
+      const glm::dvec3 anchored = glm::dvec3(plane.centerAnchored) + right * glm::dvec3(plane.rightAnchored) +
+                                  up * glm::dvec3(plane.upAnchored);
+      const FieldSample& sample = samples.emplace_back(sampleField(shown, anchored));
+      world.push_back(anchored + field.anchorWorld);
+      texelMetres.push_back(sample.cascade < 0 ? 0 : shown[static_cast<std::size_t>(sample.cascade)].texelSize);
     }
-  const std::vector<FieldTruth> truths = FieldOracle(scene, pose).at(world);
+  const std::vector<FieldTruth> truths = FieldOracle(scene, pose).at(world, texelMetres);
   RgbImage image{size, {}};
-  for (std::size_t i = 0; i < anchored.size(); ++i) {
-    const FieldSample sample = sampleField(shown, anchored[i]);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const FieldSample& sample = samples[i];
     if (sample.cascade < 0) {
       image.pixels.emplace_back(0.12f);
       continue;

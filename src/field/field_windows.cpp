@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace brickfield {
 
@@ -250,7 +249,6 @@ FieldUpdate FieldUpdatePlanner::plan(const std::vector<FieldWindow>& windows, st
       if (!box.isEmpty()) tiles.changeObjects(texelsOf(box, window));
     tiles.append(update);
   }
-  std::ranges::set_difference(update.values, update.candidates, std::back_inserter(update.kept));
   windows_ = windows;
   return update;
 }

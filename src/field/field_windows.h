@@ -57,7 +57,6 @@ struct FieldUpdate {
   std::vector<std::uint32_t> depths;
   std::vector<std::uint32_t> candidates; ///< nearest triangles: all that the changed keys can reach
   std::vector<std::uint32_t> values;     ///< distances: candidates, and what moving SDF objects reach
-  std::vector<std::uint32_t> kept;       ///< values whose candidates stay as they are
 
   bool isEmpty() const { return values.empty(); }
 };

@@ -19,9 +19,9 @@ std::size_t texelsOf(const FieldWindow& window) {
   return static_cast<std::size_t>(window.texels) * window.texels * window.texels;
 }
 
-constexpr std::array<const char*, ExactField::kLists> kListLabels = {
-    "field_key_tiles",       "field_row_tiles",   "field_column_tiles", "field_depth_tiles",
-    "field_candidate_tiles", "field_value_tiles", "field_kept_tiles"};
+constexpr std::array<const char*, ExactField::kLists> kListLabels = {"field_key_tiles",       "field_row_tiles",
+                                                                     "field_column_tiles",    "field_depth_tiles",
+                                                                     "field_candidate_tiles", "field_value_tiles"};
 
 } // namespace
 
@@ -74,7 +74,6 @@ void ExactField::prepare(const std::vector<FieldWindow>& windows, const FieldWor
   uploadList(List::Depths, work.tiles.depths);
   uploadList(List::Candidates, work.tiles.candidates);
   uploadList(List::Values, work.tiles.values);
-  uploadList(List::Kept, work.tiles.kept);
   splats_.growTo(work.splats.size() * sizeof(shared::FieldSplat));
   splats_.upload(0, work.splats);
   splatCount_ = static_cast<std::uint32_t>(work.splats.size());

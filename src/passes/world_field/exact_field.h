@@ -26,8 +26,8 @@ struct FieldWork {
 class ExactField {
 public:
   /// Tile lists of one update, in the order of its stages.
-  enum class List : std::uint8_t { Keys, Rows, Columns, Depths, Candidates, Values, Kept };
-  static constexpr std::size_t kLists = 7;
+  enum class List : std::uint8_t { Keys, Rows, Columns, Depths, Candidates, Values };
+  static constexpr std::size_t kLists = 6;
 
   ExactField();
 

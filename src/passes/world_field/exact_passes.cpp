@@ -126,14 +126,8 @@ void FieldResolvePass::record(const ExactField& field, const Buffer& triangles, 
     field.distances(cascade).bindImage(static_cast<GLuint>(cascade), 0, GL_READ_WRITE);
   field.bindList(ExactField::List::Candidates);
   dispatchList(*evaluate_, field.lengthOf(ExactField::List::Candidates));
-  betweenDispatches();
-  refine_->set("isKept", false);
-  dispatchList(*refine_, field.lengthOf(ExactField::List::Candidates));
-  field.bindList(ExactField::List::Kept);
-  refine_->set("isKept", true);
-  dispatchList(*refine_, field.lengthOf(ExactField::List::Kept));
   field.bindList(ExactField::List::Values);
-  for (Program* program : {farValues_.get(), far_.get()}) {
+  for (Program* program : {refine_.get(), farValues_.get(), far_.get()}) {
     betweenDispatches();
     dispatchList(*program, field.lengthOf(ExactField::List::Values));
   }

@@ -67,8 +67,12 @@ public:
   }
   double at(glm::dvec3 pointWorld, double sheetHalfThickness) const {
     double least = std::numeric_limits<double>::infinity();
-    for (const FieldOracle& oracle : oracles_)
-      least = std::min(least, oracle.at(pointWorld).unionDistance(sheetHalfThickness));
+    // Thin parts of meshes are thicker in the field; objects are what their bricks hold.
+    double texelMetres = 2 * sheetHalfThickness;
+    for (const FieldOracle& oracle : oracles_) {
+      least = std::min(least, oracle.at(pointWorld, texelMetres).unionDistance(sheetHalfThickness));
+      texelMetres = 0;
+    }
     return least;
   }
 
