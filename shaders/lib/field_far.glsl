@@ -1,17 +1,10 @@
 // Signs far from surfaces.
-#include "lib/field_band.glsl"
 #include "lib/field_values.glsl"
-
-layout(std430, binding = kFieldTileBinding) readonly buffer TileBlock { FieldTile tiles[]; };
 
 // A coarse texel without a candidate.
 const float UNKNOWN_TEXELS = 32768.0;
 // How far before a surface its sign is asked for: half a texel's diagonal to and fro stays within SIGNED_TEXELS.
 const float SIGN_FROM_TEXELS = 2.0;
-
-bool isBandAt(FieldCascade cascade, ivec3 lattice) {
-  return isBandTile(tiles[cascade.buffers.z + tileSlot(cascade, lattice >> 3)]);
-}
 
 bool isInsideFar(FieldCascade cascade, WorldTriangle t, vec3 point, TriangleHit hit) {
   float share = SIGN_FROM_TEXELS * cascade.texel.x * inversesqrt(hit.squared);

@@ -1,8 +1,10 @@
 // How the values of meshes are stored: clamped to the range and to what a window can know, with their nodes.
+#include "lib/field_band.glsl"
 #include "lib/field_candidates.glsl"
 #include "lib/field_grid.glsl"
 
 layout(std430, binding = kFieldNodeBinding) buffer NodeBlock { uint nodes[]; };
+layout(std430, binding = kFieldTileBinding) readonly buffer TileBlock { FieldTile tiles[]; };
 layout(binding = 0, r16f) uniform writeonly image3D distances[MOST_CASCADES];
 
 // Of a node's word: the texel was evaluated at full resolution; and is so near that others may ask it for its sign.
@@ -12,6 +14,10 @@ const float SIGNED_TEXELS = 3.5; // rank
 // between those of coarse texels; a ray must not step through, so as much is taken off outside
 // (tests/oracle/world_field/exact_field_test.cpp).
 const float SURE_TEXELS = 4.0, FAR_SLACK_TEXELS = 1.7;
+
+bool isBandAt(FieldCascade cascade, ivec3 lattice) {
+  return isBandTile(tiles[cascade.buffers.z + tileSlot(cascade, lattice >> 3)]);
+}
 
 void store(uint cascadeIndex, ivec3 lattice, float texels, uint word) {
   FieldCascade cascade = field.cascades[cascadeIndex];

@@ -1,6 +1,5 @@
 // The band at full resolution, second round: each texel without a key takes the nearest of what it and its six
 // neighbours found; then all get their values.
-#include "lib/field_band.glsl"
 #include "lib/field_open.glsl"
 #include "lib/field_values.glsl"
 
@@ -8,16 +7,11 @@ layout(local_size_x = OPEN_THREADS) in;
 
 layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
 layout(std430, binding = kFieldIdBinding) readonly buffer IdBlock { uint ids[]; };
-layout(std430, binding = kFieldTileBinding) readonly buffer TileBlock { FieldTile tiles[]; };
 
 uniform uint listLength;
 
 const int APRON = int(FIELD_TILE) + 2;
 shared uint apron[APRON * APRON * APRON];
-
-bool isBandAt(FieldCascade cascade, ivec3 lattice) {
-  return isBandTile(tiles[cascade.buffers.z + tileSlot(cascade, lattice >> 3)]);
-}
 
 // Of a texel of the tile.
 int apronIndex(int texel) {

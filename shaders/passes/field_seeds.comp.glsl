@@ -6,12 +6,11 @@ layout(local_size_x = 64) in;
 layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
 layout(std430, binding = kFieldKeyBinding) readonly buffer KeyBlock { uint keys[]; };
 layout(std430, binding = kFieldSeedBinding) writeonly buffer SeedBlock { uint seeds[]; };
-
 layout(std430, binding = kFieldTileBinding) buffer TileBlock { FieldTile tiles[]; };
 
 uniform uint listLength;
 
-shared uint found;
+shared uint found; // 1: a seed lies in the tile
 
 // No surface passes farther from all texel centres; half a sheet more is the rank of closed ones.
 const float TOUCHED_TEXELS = 0.8660255 + 0.5 + 0.01;
