@@ -16,6 +16,7 @@
 #include "app/command_compare.h"
 #include "app/command_inspect.h"
 #include "app/command_list.h"
+#include "app/command_mesh.h"
 #include "app/command_reference.h"
 #include "app/command_render.h"
 #include "app/session.h"
@@ -29,6 +30,7 @@ void addCommands(CLI::App& program, CommandAction& chosen) {
   addRenderCommand(program, chosen);
   addListCommand(program, chosen);
   addInspectCommand(program, chosen);
+  addMeshCommand(program, chosen);
   addBenchCommand(program, chosen);
 #ifdef BRICKFIELD_BAKERS
   addBakeCommand(program, chosen);
