@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include "bakers/bake_memory.h"
 #include "bakers/level_baker.h"
 #include "bakers/mask_cut.h"
 #include "bakers/sheets.h"
@@ -26,7 +27,6 @@ constexpr double kLeastHalfThicknessVoxels = 0.5625;
 // are walls: what they stand around is a room, and their slabs lie on its outer side. Flat ones stand around nothing,
 // but those at the border of a scene are seen from it, whichever way they face.
 constexpr double kFineTriangleVoxels = 16;
-constexpr std::uint64_t kMostBytes = kMaxFieldBytes;
 constexpr std::uint64_t kReportEveryBricks = 32;
 
 void checkSettings(const BakeSettings& settings) {
@@ -73,9 +73,11 @@ public:
       : input_(input),
         settings_(settings),
         progress_(progress),
+        memory_(input.label, settings.memoryBytes),
         soup_(gatherTriangles(input)),
         topology_(analyseTopology(soup_)) {
     soup_.isBackCovered = topology_.isFlatPair;
+    memory_.holdTriangles(soup_.triangles.size());
   }
 
   BakeResult run() {
@@ -223,7 +225,7 @@ private:
     return findThinParts(*thickness_, level.voxelSizeObject * soup_.unitsPerMetre, settings_.resolution);
   }
 
-  BrickLevel bakeOneLevel(const GridLayout& layout, std::size_t index, const AttributeBaker* attributes) const {
+  BrickLevel bakeOneLevel(const GridLayout& layout, std::size_t index, const AttributeBaker* attributes) {
     BakeProgress progress(progress_,
                           fmt::format("bake {}, level {} of {}", input_.label, index + 1, layout.levels.size()));
     LevelBakeRequest request;
@@ -244,24 +246,21 @@ private:
     }
     sampling.isComplete = index + 1 == layout.levels.size();
     sampling.admit = [&](std::size_t bricks) {
-      admitMemory(bricks, index);
+      admitMemory(bricks, layout.levels[index], index);
       progress.begin(bricks);
     };
     sampling.done = [&](std::size_t bricks) { progress.add(bricks); };
     return bakeLevel(request);
   }
 
-  /// Working memory and result of a level: distance and triangle a sample and surface, patch and sign, code,
-  /// attributes.
-  void admitMemory(std::size_t bricks, std::size_t index) const {
-    const std::uint64_t surfaceCount = (surfaces_.solid ? 1u : 0u) + (surfaces_.sheets ? 1u : 0u);
-    const std::uint64_t bytesPerSampleHeld = 8 * surfaceCount + 3 + 2 + (settings_.attributes ? 12u : 0u);
-    const std::uint64_t bytes = bricks * kBrickSampleCount * bytesPerSampleHeld;
-    if (bytes > kMostBytes)
-      throw BadInput(input_.label, fmt::format("level {}", index),
-                     fmt::format("needs {:.1f} GiB for {} bricks, more than {:.0f} GiB; lower the resolution",
-                                 std::ldexp(static_cast<double>(bytes), -30), bricks,
-                                 std::ldexp(static_cast<double>(kMostBytes), -30)));
+  void admitMemory(std::size_t bricks, const LevelLayout& layout, std::size_t index) {
+    BakeMemory::Level level;
+    level.index = index, level.bricks = bricks;
+    level.cells = static_cast<std::size_t>(layout.brickCounts.x) * static_cast<std::size_t>(layout.brickCounts.y) *
+                  static_cast<std::size_t>(layout.brickCounts.z);
+    level.surfaces = (surfaces_.solid ? 1 : 0) + (surfaces_.sheets ? 1 : 0);
+    level.hasAttributes = settings_.attributes;
+    memory_.admit(level);
   }
 
   void fillStats(BakeResult& result) const {
@@ -285,6 +284,7 @@ private:
   const BakeInput& input_;
   const BakeSettings& settings_;
   const Progress& progress_;
+  BakeMemory memory_;
   TriangleSoup soup_;
   MeshTopology topology_;
   std::optional<MeshHierarchy> solidHierarchy_, sheetHierarchy_;

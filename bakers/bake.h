@@ -30,6 +30,8 @@ struct BakeSettings {
   SignMethod sign = SignMethod::Auto;
   float thickness = 0; ///< of sheets, metres of object space; 0: as thin as can be shown, 1.125 voxels
   bool attributes = true;
+  /// What a bake may take of memory; decides no bytes, so it is no part of the hash. 0: what a field may have, 8 GiB.
+  std::uint64_t memoryBytes = 0;
   int threads = 0; ///< 0: all
 };
 
@@ -81,8 +83,8 @@ struct BakeResult {
 /// returns   the same bytes on any number of threads
 /// error     BadInput that names input.label: no triangle of positive area, nothing left by its mask, indices out of
 /// range,
-///           positions that are not finite or too far from the origin, a level of more than 8 GiB, Pseudonormal on what
-///           is no closed manifold; BadInput that names the setting: out of range; Cancelled
+///           positions that are not finite or too far from the origin, a level that needs more than memoryBytes (with
+///           the number, before it is made), Pseudonormal on what is no closed manifold; BadInput that names the setting: out of range; Cancelled
 /// cost      on one core about 1 us a sample near the surface; an open mesh up to three times that
 /// proved by tests/bake/bakers
 BakeResult bakeField(const BakeInput& input, const BakeSettings& settings, const Progress& progress = {});

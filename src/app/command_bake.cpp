@@ -27,7 +27,7 @@ struct BakeRequest {
   std::filesystem::path output;
   std::filesystem::path stats;
   std::string node;
-  SdfRequest sdf; // the resolution only
+  SdfRequest sdf; // resolution and memory only
   std::optional<int> bits;
   std::optional<int> mips;
   std::optional<SignMethod> sign;
@@ -116,6 +116,7 @@ void addOptions(CLI::App& command, BakeRequest& request) {
   addValue(command, "--thickness", "Of two-sided sheets, metres of object space; 0: one voxel",
            [&](auto& flag, auto& text) { request.thickness = static_cast<float>(parseNumber(flag, text, 0, 1e6)); })
       ->type_name("M");
+  addMemoryOption(command, request.sdf);
   addValue(command, "--threads", "0: all", [&](auto& flag, auto& text) {
     request.threads = static_cast<int>(parseWhole(flag, text, 0, 1024));
   })->type_name("N");

@@ -7,6 +7,7 @@
 
 #include "app/environment_io.h"
 #include "app/image_io.h"
+#include "app/memory_limit.h"
 #include "app/parse.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -59,6 +60,7 @@ void addSceneOptions(CLI::App& command, SceneRequest& request) {
   addValue(command, "--resolution", "Voxels along the longest side of every SDF object, 8 to 1024; wins over extras",
            [&](auto& flag, auto& text) { request.sdf.resolution = static_cast<int>(parseWhole(flag, text, 8, 1024)); })
       ->type_name("N");
+  addMemoryOption(command, request.sdf);
   addValue(command, "--cache", "Folder of baked bricks; absent: the user's cache folder", [&](auto& flag, auto& text) {
     if (text.empty()) throw BadInput(flag, "", "names no folder");
     request.cacheFolder = text;
@@ -69,6 +71,12 @@ void addSceneOptions(CLI::App& command, SceneRequest& request) {
   addValue(command, "--seed", "Seed of everything random", [&](auto& flag, auto& text) {
     request.seed = static_cast<std::uint64_t>(parseWhole(flag, text, 0, std::numeric_limits<std::int64_t>::max()));
   })->type_name("N");
+}
+
+void addMemoryOption(CLI::App& command, SdfRequest& request) {
+  addValue(command, "--memory", "What a bake may take, such as 1.5GiB or 800MiB; by default most of the machine's",
+           [&](auto& flag, auto& text) { request.memoryBytes = parseMemory(flag, text); })
+      ->type_name("SIZE");
 }
 
 void addCameraOptions(CLI::App& command, CameraRequest& request) {
@@ -126,6 +134,7 @@ BakeSettings bakeSettingsOf(const Node& node, const SdfRequest& request, int thr
   settings.sign = node.sdf.sign.value_or(settings.sign);
   settings.thickness = node.sdf.thickness.value_or(settings.thickness);
   settings.threads = threads;
+  settings.memoryBytes = request.memoryBytes.value_or(defaultMemoryBytes());
   return settings;
 }
 

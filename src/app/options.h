@@ -34,7 +34,11 @@ CLI::Option* addName(CLI::App& command, const std::string& flag, const std::stri
 struct SdfRequest {
   std::vector<std::string> patterns; ///< "all", "none" or globs of node names; empty: what the scene's extras say
   std::optional<int> resolution;     ///< of every SDF node; wins over its extras
+  std::optional<std::uint64_t> memoryBytes{}; ///< that a bake may take; nothing: most of the machine's
 };
+
+/// --memory
+void addMemoryOption(CLI::App& command, SdfRequest& request);
 
 /// A scene at one moment.
 struct SceneRequest {
@@ -45,7 +49,7 @@ struct SceneRequest {
   int threads = 0;                                  ///< 0: all
   std::uint64_t seed = 0;
 };
-/// SCENE --time --animation --sdf --resolution --cache --threads --seed
+/// SCENE --time --animation --sdf --resolution --memory --cache --threads --seed
 void addSceneOptions(CLI::App& command, SceneRequest& request);
 
 /// --size --camera --eye --target --fov
