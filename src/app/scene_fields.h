@@ -21,8 +21,11 @@ struct SceneFieldsResult {
 
 /// settingsOfNode  as sdfNodes() gives them: nothing where a node is drawn as a mesh
 /// cacheFolder     empty: no cache
-/// Deformed meshes are baked as they are posed. A node whose mesh has no area stays a mesh, with a warning.
+/// Deformed meshes are baked as they are posed. A node whose mesh has no area stays a mesh, with a warning. Fields are
+/// baked several at once, those aside that might then need more memory than their settings allow.
+/// returns         the same in any order of work
 /// error           BadInput, Cancelled
+/// proved by       tests/bake/app/scene_fields_test.cpp
 SceneFieldsResult bakeSceneFields(const Scene& scene, const Pose& pose,
                                   const std::vector<std::optional<BakeSettings>>& settingsOfNode,
                                   const std::filesystem::path& cacheFolder, const Progress& progress);
