@@ -1,11 +1,10 @@
-// What can be said and shown of one BrickField on the CPU.
+// What can be said of one BrickField on the CPU.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "app/image.h"
 #include "field/brick_field.h"
 
 namespace brickfield {
@@ -35,10 +34,5 @@ struct SlicePlane {
 };
 /// "x:0.25". error BadInput that names the flag
 SlicePlane parseSlice(const std::string& flag, const std::string& text);
-
-/// The finest level cut by a plane, 512 pixels along the longer side: blue inside, orange outside, paler with distance,
-/// a thin line every voxel, black on the surface. The picture's right is the next axis (of x y z x), up the one after.
-/// error  BadInput: the plane misses the field's bounds
-RgbImage sliceField(const BrickField& field, const SlicePlane& plane);
 
 } // namespace brickfield

@@ -1,4 +1,4 @@
-// Counts and cuts of a field built by hand: one brick beside one empty cell.
+// Counts of a field built by hand: one brick beside one empty cell.
 #include "app/field_report.h"
 
 #include <cstring>
@@ -38,28 +38,6 @@ TEST(ReportLevels, CountsCellsAndBytes) {
   EXPECT_EQ(reports[0].bytes, 512u + 2 * 4);
   EXPECT_EQ(reports[0].bits, 8);
   EXPECT_FALSE(reports[0].hasAttributes);
-}
-
-TEST(SliceField, ShowsInsideSurfaceAndOutsideWhereTheyAre) {
-  const RgbImage image = sliceField(planeField(), {2, 0.35f}); // across z: right is x, up is y
-  ASSERT_EQ(image.size, glm::uvec2(512, 256));
-  const auto at = [&](float metres) { return image.at(static_cast<std::uint32_t>(metres / 1.4f * 512), 128); };
-  EXPECT_GT(at(0.15f).z, at(0.15f).x); // inside is blue
-  EXPECT_EQ(at(0.301f), glm::vec3(0)); // the surface at three voxels is black
-  EXPECT_GT(at(0.45f).x, at(0.45f).z); // outside is orange
-}
-
-TEST(SliceField, HasTheLaterAxisUpwards) {
-  const RgbImage image = sliceField(planeField(), {1, 0.35f}); // across y: right is z, up is x
-  ASSERT_EQ(image.size, glm::uvec2(256, 512));
-  const glm::vec3 bottom = image.at(128, 511 - 55), top = image.at(128, 511 - 165);
-  EXPECT_GT(bottom.z, bottom.x); // x = 0.15: inside
-  EXPECT_GT(top.x, top.z);       // x = 0.45: outside
-}
-
-TEST(SliceField, RefusesAPlaneBesideTheField) {
-  EXPECT_THROW(sliceField(planeField(), {0, 1.5f}), BadInput);
-  EXPECT_THROW(sliceField(planeField(), {1, -0.1f}), BadInput);
 }
 
 TEST(ParseSlice, ReadsAxisAndPosition) {
