@@ -23,12 +23,12 @@ std::array<std::size_t, 4> faceCorners(int face) {
   return {side, side | u, side | u | v, side | v};
 }
 
-/// Whether the two negative corners of a face, across from each other, hang together within it.
+/// Whether the two corners inside of a face, across from each other, hang together within it.
 bool isInsideJoined(const std::array<double, 4>& values) {
   // The bilinear patch has its saddle at (v0 v2 - v1 v3) / (v0 + v2 - v1 - v3). Products do not depend on the order,
   // so both cells at the face find the same to the last bit.
   const double even = values[0] * values[2], odd = values[1] * values[3];
-  return values[0] < 0 ? even > odd : odd > even;
+  return isInsideValue(values[0]) ? even > odd : odd > even;
 }
 
 /// For each edge where a walk around the face enters the inside, the edge that the loop goes on to across the face:
@@ -37,7 +37,7 @@ void joinAcross(int face, const VoxelCorners& corners, std::array<std::uint8_t, 
   const std::array<std::size_t, 4> around = faceCorners(face);
   std::array<double, 4> values;
   for (std::size_t i = 0; i < 4; ++i) values[i] = corners[around[i]];
-  const auto isInside = [&](std::size_t i) { return values[i % 4] < 0; };
+  const auto isInside = [&](std::size_t i) { return isInsideValue(values[i % 4]); };
   std::size_t changes = 0;
   for (std::size_t i = 0; i < 4; ++i) changes += isInside(i) != isInside(i + 1);
   const bool goesOn = changes == 4 && isInsideJoined(values);

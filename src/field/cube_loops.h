@@ -28,8 +28,11 @@ struct EdgeCorners {
 };
 EdgeCorners cornersOfEdge(int edge);
 
-/// The loops between negative corners and all others. Each edge with a change of sign is in exactly one loop, which
-/// turns counter-clockwise as seen from the side that is not negative. Edges of a loop of three or four never lie in
+/// Zero counts as inside: where surfaces are hidden in a solid, distances go up to zero and no farther.
+inline bool isInsideValue(double value) { return value <= 0; }
+
+/// The loops between corners inside and all others. Each edge that leads from one side to the other is in exactly one
+/// loop, which turns counter-clockwise as seen from outside. Edges of a loop of three or four never lie in
 /// one face unless they follow each other, so its triangles meet those of the next cell nowhere but at the loop.
 ///
 /// values     finite; only signs count, but for the faces with two readings

@@ -59,7 +59,7 @@ public:
           for (int i = 0; i < 8; ++i) {
             const double value = values[sampleIndex({x + (i & 1), y + (i >> 1 & 1), z + (i >> 2)})] - isoVoxels_;
             corners[static_cast<std::size_t>(i)] = value;
-            insideCount += value < 0;
+            insideCount += isInsideValue(value);
           }
           if (insideCount > 0 && insideCount < 8) addCell(kBrickCells * brick + glm::ivec3(x, y, z), corners);
         }

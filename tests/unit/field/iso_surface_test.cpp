@@ -142,6 +142,20 @@ TEST(IsoSurface, ZerosAtGridPointsMakeNoPointOfSeveralVertices) {
   expectClosed(extractIsoSurface(field, 0, 0), "box");
 }
 
+TEST(IsoSurface, HiddenSurfaceIsNone) {
+  // A box in a box: samples on the inner one are 0, all around them negative.
+  const auto distance = [](glm::vec3 p) {
+    const float outer = boxDistance(p, glm::vec3(0), glm::vec3(0.5f)),
+                inner = boxDistance(p, glm::vec3(0), glm::vec3(0.25f));
+    return outer >= 0 ? outer : -std::min(-outer, std::abs(inner));
+  };
+  const BrickField field = makeAnalyticField(distance, {glm::vec3(-0.5f), glm::vec3(0.5f)}, 32, 16, 1);
+  EXPECT_GE(sampleDistance(field, 0, {0.25f, 0, 0}), 0.0f);
+  const ManifoldCheck check = checkManifold(extractIsoSurface(field, 0, 0).indices);
+  EXPECT_TRUE(check.isClosedManifold());
+  EXPECT_EQ(check.components, 1u);
+}
+
 TEST(IsoSurface, SurfaceCutOffByTheGridIsClosedThere) {
   // The sphere reaches through the box that was given for it.
   const BrickField field = makeAnalyticField([](glm::vec3 p) { return sphereDistance(p, glm::vec3(0), 0.5f); },
