@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <tbb/parallel_for.h>
 
@@ -14,6 +15,11 @@ namespace {
 
 constexpr double kPieceVoxels = 0.5; // finer than the field can show
 constexpr float kBlendCutoff = 0.5f; // as the opaque frame draws it
+// The slab around a piece reaches 0.56 voxels beyond it. So a piece at a straight border must lie 0.3 voxels within it:
+// there the mask keeps four fifths of the disk of 0.6 voxels around. More would lose stalks and tips: with these the
+// leaves of a tree at 256 voxels cover most of what they should, silhouettes share 0.905 instead of 0.842.
+constexpr double kDiskVoxels = 0.6, kLeastKept = 0.8;
+constexpr int kDiskRings = 2, kPointsOfFirstRing = 8;
 constexpr int kMostQuarterings = 8;
 constexpr std::uint64_t kMostPieces = std::uint64_t{4} << 20;
 
@@ -39,12 +45,31 @@ int quarteringsFor(double edge, double voxelSize) {
   return static_cast<int>(std::clamp<double>(halvings, 0, kMostQuarterings));
 }
 
+/// Barycentric coordinates of the points of a disk around zero in the plane of a triangle.
+std::vector<glm::vec2> diskOver(const std::array<glm::dvec3, 3>& corners, double radius) {
+  const glm::dvec3 ab = corners[1] - corners[0], ac = corners[2] - corners[0];
+  const glm::dvec3 right = glm::normalize(ab), up = glm::normalize(glm::cross(glm::cross(ab, ac), ab));
+  const double abSquared = glm::dot(ab, ab), acSquared = glm::dot(ac, ac), both = glm::dot(ab, ac);
+  const double determinant = abSquared * acSquared - both * both; // positive: the triangle has an area
+  std::vector<glm::vec2> points;
+  for (int ring = 1; ring <= kDiskRings; ++ring)
+    for (int k = 0; k < kPointsOfFirstRing * ring; ++k) {
+      const double angle = 2 * std::numbers::pi * (k + 0.25 * ring) / (kPointsOfFirstRing * ring);
+      const glm::dvec3 offset = radius * ring / kDiskRings * (std::cos(angle) * right + std::sin(angle) * up);
+      const double alongAb = glm::dot(offset, ab), alongAc = glm::dot(offset, ac);
+      points.emplace_back((acSquared * alongAb - both * alongAc) / determinant,
+                          (abSquared * alongAc - both * alongAb) / determinant);
+    }
+  return points;
+}
+
 /// The mask over one triangle.
 class MaskedTriangle {
 public:
+  /// disk  around a piece, barycentric
   MaskedTriangle(const Primitive& primitive, const Material& material, std::size_t number,
-                 const TextureSampler& sampler)
-      : primitive_(primitive), material_(material), number_(number), sampler_(sampler) {}
+                 const TextureSampler& sampler, std::vector<glm::vec2> disk)
+      : primitive_(primitive), material_(material), number_(number), sampler_(sampler), disk_(std::move(disk)) {}
 
   /// Appends the kept pieces. Returns true if all of the piece is kept; then it was appended as one.
   bool cut(const Piece& piece, int quarterings, std::vector<Piece>& kept) const {
@@ -65,6 +90,13 @@ public:
 
 private:
   bool keeps(glm::vec2 barycentric) const {
+    if (!isOpaqueAt(barycentric)) return false;
+    std::size_t opaque = 1;
+    for (const glm::vec2 offset : disk_) opaque += isOpaqueAt(barycentric + offset);
+    return static_cast<double>(opaque) >= kLeastKept * static_cast<double>(disk_.size() + 1);
+  }
+  /// Beside the triangle its plane goes on.
+  bool isOpaqueAt(glm::vec2 barycentric) const {
     const MaterialPoint point = materialPointOf(primitive_, number_, barycentric);
     const float cutoff = material_.alphaMode == AlphaMode::Mask ? material_.alphaCutoff : kBlendCutoff;
     return sampler_.sampleBaseColor(material_, point).w >= cutoff;
@@ -74,6 +106,7 @@ private:
   const Material& material_;
   std::size_t number_;
   const TextureSampler& sampler_;
+  std::vector<glm::vec2> disk_;
 };
 
 void appendPiece(TriangleSoup& soup, std::uint32_t parent, const Piece& piece) {
@@ -133,7 +166,7 @@ std::vector<std::uint32_t> cutMaskedSheets(const BakeInput& input, TriangleSoup&
   tbb::parallel_for(std::size_t{0}, masked.size(), [&](std::size_t i) {
     const std::uint32_t t = masked[i];
     const MaskedTriangle triangle(primitiveOf(t), materialOf(*input.scene, primitiveOf(t)), soup.triangleIndices[t],
-                                  sampler);
+                                  sampler, diskOver(soup.corners(t), kDiskVoxels * voxelSize));
     const int quarterings = std::min(most, quarteringsFor(longestEdge(soup, t), voxelSize));
     triangle.cut(kWhole, quarterings, pieces[i]);
   });
