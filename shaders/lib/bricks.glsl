@@ -21,10 +21,11 @@ uint cellOfBrick(uint firstCell, SdfLevel level, ivec3 brick) {
   return indirection[firstCell + (uint(brick.z) * level.cells.z + uint(brick.y)) * level.cells.y + uint(brick.x)];
 }
 
-// First texel of a slot. Slots fill the pool texture x fastest.
-ivec3 texelOfSlot(uint slot, ivec3 poolSize) {
-  uvec3 bricks = uvec3(poolSize) / BRICK_SAMPLES;
-  return ivec3(uvec3(slot % bricks.x, (slot / bricks.x) % bricks.y, slot / (bricks.x * bricks.y)) * BRICK_SAMPLES);
+// First texel of a slot. Slots fill a layer of the pool texture, x fastest.
+ivec3 texelOfSlot(uint slot) {
+  const uint mask = BRICK_POOL_SIDE - 1u;
+  uvec3 at = uvec3(slot & mask, slot / BRICK_POOL_SIDE & mask, slot / (BRICK_POOL_SIDE * BRICK_POOL_SIDE));
+  return ivec3(at * BRICK_SAMPLES);
 }
 
 bool isR16(SdfLevel level) { return level.scale.z > 0.5; }
@@ -39,22 +40,22 @@ float boundOfCell(uint cell) {
 float brickDistance(SdfLevel level, uint slot, vec3 pointBrick) {
   if (isR16(level)) {
     ivec3 size = textureSize(distance_r16, 0);
-    return textureLod(distance_r16, (vec3(texelOfSlot(slot, size)) + pointBrick + 0.5) / vec3(size), 0.0).r * level.scale.y;
+    return textureLod(distance_r16, (vec3(texelOfSlot(slot)) + pointBrick + 0.5) / vec3(size), 0.0).r * level.scale.y;
   }
   ivec3 size = textureSize(distance_r8, 0);
-  return textureLod(distance_r8, (vec3(texelOfSlot(slot, size)) + pointBrick + 0.5) / vec3(size), 0.0).r * level.scale.y;
+  return textureLod(distance_r8, (vec3(texelOfSlot(slot)) + pointBrick + 0.5) / vec3(size), 0.0).r * level.scale.y;
 }
 
 // The eight stored distances around a voxel: x fastest, a = z 0, b = z 1.
 void voxelCorners(SdfLevel level, uint slot, ivec3 voxelBrick, out vec4 a, out vec4 b) {
   if (isR16(level)) {
-    ivec3 t = texelOfSlot(slot, textureSize(distance_r16, 0)) + voxelBrick;
+    ivec3 t = texelOfSlot(slot) + voxelBrick;
     a = vec4(texelFetch(distance_r16, t, 0).r, texelFetch(distance_r16, t + ivec3(1, 0, 0), 0).r,
              texelFetch(distance_r16, t + ivec3(0, 1, 0), 0).r, texelFetch(distance_r16, t + ivec3(1, 1, 0), 0).r);
     b = vec4(texelFetch(distance_r16, t + ivec3(0, 0, 1), 0).r, texelFetch(distance_r16, t + ivec3(1, 0, 1), 0).r,
              texelFetch(distance_r16, t + ivec3(0, 1, 1), 0).r, texelFetch(distance_r16, t + ivec3(1, 1, 1), 0).r);
   } else {
-    ivec3 t = texelOfSlot(slot, textureSize(distance_r8, 0)) + voxelBrick;
+    ivec3 t = texelOfSlot(slot) + voxelBrick;
     a = vec4(texelFetch(distance_r8, t, 0).r, texelFetch(distance_r8, t + ivec3(1, 0, 0), 0).r,
              texelFetch(distance_r8, t + ivec3(0, 1, 0), 0).r, texelFetch(distance_r8, t + ivec3(1, 1, 0), 0).r);
     b = vec4(texelFetch(distance_r8, t + ivec3(0, 0, 1), 0).r, texelFetch(distance_r8, t + ivec3(1, 0, 1), 0).r,

@@ -49,7 +49,7 @@ float writeSurface(SdfLevel level, vec3 pointLevel) {
   uint slot = cellOfBrick(level.attributes.x, level, brick);
   if ((slot & CELL_EMPTY) != 0u) return 1.0;
   ivec3 size = textureSize(brick_base_color, 0);
-  vec3 uvw = (vec3(texelOfSlot(slot, size)) + (p - vec3(brick) * float(BRICK_CELLS)) + 0.5) / vec3(size);
+  vec3 uvw = (vec3(texelOfSlot(slot)) + (p - vec3(brick) * float(BRICK_CELLS)) + 0.5) / vec3(size);
   vec4 colorAndCoverage = textureLod(brick_base_color, uvw, 0.0);
   albedo = vec4(colorAndCoverage.rgb, 1.0);
   material = textureLod(brick_material, uvw, 0.0);

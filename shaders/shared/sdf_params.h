@@ -32,6 +32,7 @@ SHARED_CONST uint CELL_BOUND_MASK = 0xffffu;
 
 SHARED_CONST uint BRICK_SAMPLES = 8u;
 SHARED_CONST uint BRICK_CELLS = 7u;
+SHARED_CONST uint BRICK_POOL_SIDE = 64u; // slots along x and y of a pool's textures; a power of two
 
 // A visible object, as the box pass takes it from its instance attribute: index and flags.
 SHARED_CONST uint VISIBLE_INDEX_MASK = 0x00ffffffu;

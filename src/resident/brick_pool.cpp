@@ -7,11 +7,12 @@
 
 #include "core/error.h"
 #include "field/brick_field.h"
+#include "shared/sdf_params.h"
 
 namespace brickfield {
 
 namespace {
-constexpr int kSlotsAcross = 64;
+constexpr int kSlotsAcross = shared::BRICK_POOL_SIDE;
 constexpr int kSlotsPerLayer = kSlotsAcross * kSlotsAcross;
 } // namespace
 
