@@ -7,26 +7,30 @@
 // Level voxels up to which no corner that weighs in a stored distance is clamped: four, less the way to the corner.
 const float TRUSTED_VOXELS = 2.8;
 const float BAND_TEXELS = 4.0, INSIDE_BAND_TEXELS = 5.0;
-// Where bounds stand this close together the search ends.
-const float ACCURATE_TEXELS = 0.01;
+// Closed parts are at least so thick near them, and as thin as they are from so far away on.
+const float THICK_TEXELS = 1.15, FADED_TEXELS = 2.0;
+const float KINK_VOXELS = 0.3;
+const int MOST_ROUNDS = 8, MOST_ROUNDS_FROM_NEIGHBOUR = 3, LOOK_AROUND_ROUND = 3, MOST_FAILURES = 2;
 // Between samples a distance may fall about this much below the truth where two surfaces are equally far away.
 const float CERTAIN_TEXELS = 0.03;
-const float KINK_VOXELS = 0.3;
-const int MOST_STEPS = 8, MOST_STEPS_FROM_NEIGHBOUR = 3, LOOK_AROUND_STEP = 3;
+// Where bounds stand this close together the search ends.
+const float ACCURATE_TEXELS = 0.01;
 
 // An object as texels of one size see it.
 struct FieldObject {
   SdfInstance instance;
+  vec3 gridOrigin; // of anchored space
   int firstLevel; // no finer one is read: its voxels are at most an eighth of a texel, or it is the finest
   float fineVoxel; // of that level, grid voxels
   float texelMetres;
   bool isSimilar; // distances in the grid are distances in the world
 };
 
-FieldObject fieldObject(SdfInstance instance, float texelMetres) {
+FieldObject fieldObject(SdfInstance instance, vec3 anchorWorld, float texelMetres) {
+  vec3 gridOrigin = vec3(instance.worldFromGrid[0].w, instance.worldFromGrid[1].w, instance.worldFromGrid[2].w);
   float level = clamp(floor(log2(texelMetres / instance.boxMin.w)) - 3.0, 0.0, float(instance.ids.z - 1));
   bool isSimilar = instance.boxMin.w < 1.001 * instance.boxMax.w;
-  return FieldObject(instance, int(level), exp2(level), texelMetres, isSimilar);
+  return FieldObject(instance, gridOrigin - anchorWorld, int(level), exp2(level), texelMetres, isSimilar);
 }
 
 struct BrickReading {
@@ -90,9 +94,8 @@ vec3 timesRows(vec4 rows[3], vec3 direction) {
   return vec3(dot(rows[0].xyz, direction), dot(rows[1].xyz, direction), dot(rows[2].xyz, direction));
 }
 
-vec3 gridPoint(SdfInstance instance, vec3 pointWorld) {
-  vec4 h = vec4(pointWorld, 1.0);
-  return vec3(dot(instance.gridFromWorld[0], h), dot(instance.gridFromWorld[1], h), dot(instance.gridFromWorld[2], h));
+vec3 gridPoint(FieldObject object, vec3 pointAnchored) {
+  return timesRows(object.instance.gridFromWorld, pointAnchored - object.gridOrigin);
 }
 
 float lengthWorld(SdfInstance instance, vec3 wayGrid) { return length(timesRows(instance.worldFromGrid, wayGrid)); }
@@ -105,10 +108,14 @@ vec4 normalWorld(SdfInstance instance, vec3 normalGrid) {
   return vec4(normal * metres, metres);
 }
 
+vec3 clampToBox(SdfInstance instance, vec3 pointGrid) {
+  return clamp(pointGrid, instance.boxMin.xyz, instance.boxMax.xyz);
+}
+
 // Lower bound, metres, of the distance to the object's box; may be less where the transform is no similarity.
-float boxDistance(SdfInstance instance, vec3 pointWorld) {
-  vec3 p = gridPoint(instance, pointWorld);
-  return instance.boxMax.w * distance(p, clamp(p, instance.boxMin.xyz, instance.boxMax.xyz));
+float boxDistance(FieldObject object, vec3 pointAnchored) {
+  vec3 p = gridPoint(object, pointAnchored);
+  return object.instance.boxMax.w * distance(p, clampToBox(object.instance, p));
 }
 
 // How much of a way from a point in the box stays in it, at most 1.
@@ -118,51 +125,39 @@ float partInBox(SdfInstance instance, vec3 pointGrid, vec3 wayGrid) {
   return clamp(min(parts.x, min(parts.y, parts.z)), 0.0, 1.0);
 }
 
-vec3 clampToBox(SdfInstance instance, vec3 pointGrid) {
-  return clamp(pointGrid, instance.boxMin.xyz, instance.boxMax.xyz);
-}
-
 // What is known of the distance from a point.
 struct ObjectDistance {
   vec3 pointGrid;
   float side;       // -1 inside, else 1
   float lower;      // bounds of the magnitude, metres
   float upper;
-  vec3 surfaceGrid; // of the upper bound, or where to begin to look for it
-  bool isSearched;  // the upper bound is worth a search
+  vec3 surfaceGrid; // of the upper bound
 };
 
-// The bound from below, and whether it is all that is needed: beyond the band, or farther than `most` metres.
+// The bound from below, from what was read at the point of the box that is nearest.
 // Outside of the box, with q its closest point there: sqrt(max(I(q), 0)^2 + |p - q|^2) in grid voxels, because the box
 // is convex and angle(p, q, surface) is no less than a right one; times the least metres of a voxel. What is read may
 // exceed the truth: a distance d curves by at most 1/d along two axes, which adds up to voxel^2/8 * 2/d; nearer than
 // two voxels less is taken off, lest it steps where the level changes.
-ObjectDistance boundDistance(FieldObject object, vec3 pointWorld, float most) {
-  ObjectDistance result;
-  vec3 p = gridPoint(object.instance, pointWorld), q = clampToBox(object.instance, p);
-  BrickReading reading = readObject(object, q);
-  float outer = distance(p, q), read = abs(reading.grid);
+ObjectDistance boundOf(FieldObject object, vec3 pointGrid, BrickReading reading) {
+  vec3 q = clampToBox(object.instance, pointGrid);
+  float outer = distance(pointGrid, q), read = abs(reading.grid);
   bool isInside = reading.grid < 0.0 && outer == 0.0;
   float voxel = reading.voxel, excess = 0.25 * voxel * voxel / max(read - 0.5 * voxel, 2.0 * voxel);
   float inner = max((isInside ? read : reading.grid) - excess, 0.0);
-  result.pointGrid = p;
-  result.side = isInside ? -1.0 : 1.0;
-  result.lower = object.instance.boxMax.w * (outer > 0.0 ? length(vec2(inner, outer)) : inner);
-  result.upper = result.lower;
-  result.isSearched = false;
-  float band = (isInside ? INSIDE_BAND_TEXELS : BAND_TEXELS) * object.texelMetres;
-  if (result.lower >= band || (!isInside && result.lower > most)) return result;
+  float lower = object.instance.boxMax.w * (outer > 0.0 ? length(vec2(inner, outer)) : inner);
+  return ObjectDistance(pointGrid, isInside ? -1.0 : 1.0, lower, lower, q);
+}
+
+bool isInBand(FieldObject object, ObjectDistance bound) {
+  return bound.lower < (bound.side < 0.0 ? INSIDE_BAND_TEXELS : BAND_TEXELS) * object.texelMetres;
+}
+
+// What was read in the box is the distance itself.
+bool isExact(FieldObject object, ObjectDistance bound, BrickReading reading) {
   bool isFine = reading.voxel * object.instance.boxMin.w <= 0.125 * object.texelMetres;
-  bool isClose = reading.voxel == object.fineVoxel && read < 1.5 * object.fineVoxel;
-  if (object.isSimilar && outer == 0.0 && (isFine || isClose)) {
-    result.upper = read * object.instance.boxMax.w;
-    result.surfaceGrid = q;
-    return result;
-  }
-  result.isSearched = true;
-  result.upper = 1e30;
-  result.surfaceGrid = surfaceFrom(reading).pointGrid;
-  return result;
+  bool isClose = reading.voxel == object.fineVoxel && abs(reading.grid) < 1.5 * object.fineVoxel;
+  return object.isSimilar && bound.pointGrid == bound.surfaceGrid && (isFine || isClose);
 }
 
 // The way in the world from a surface point to one that is nearer to the point `away` from it: to the foot of that on
@@ -218,6 +213,7 @@ void searchSurface(FieldObject object, inout ObjectDistance found, vec3 startGri
   SurfacePoint surface = SurfacePoint(startGrid, vec3(0.0));
   SdfInstance instance = object.instance;
   float accurate = ACCURATE_TEXELS * object.texelMetres;
+  int failures = 0;
   for (int i = 0; i < rounds; ++i) {
     vec3 way = found.pointGrid - surface.pointGrid;
     float size = max(length(way), 1e-6);
@@ -233,16 +229,18 @@ void searchSurface(FieldObject object, inout ObjectDistance found, vec3 startGri
     }
     surface = surfaceFrom(reading);
     vec4 normal = normalWorld(instance, surface.normalGrid);
-    if (outer + inner * normal.w < found.upper) {
-      found.upper = outer + inner * normal.w;
+    float sum = outer + inner * normal.w;
+    failures += int(sum > found.upper - 0.3 * accurate);
+    if (sum < found.upper) {
+      found.upper = sum;
       found.surfaceGrid = surface.pointGrid;
     }
     if (found.upper - found.lower < accurate) return;
     way = found.pointGrid - surface.pointGrid;
     vec3 away = timesRows(instance.worldFromGrid, way);
     float aside = dot(away, away) - dot(normal.xyz, away) * dot(normal.xyz, away);
-    bool isInLine = aside < 0.8 * accurate * length(away); // aside / 2 length is what the next step could gain
-    if (mayLookAround && (isInLine || i == LOOK_AROUND_STEP)) {
+    bool isInLine = failures > MOST_FAILURES || aside < 0.8 * accurate * length(away); // aside / 2 length is what the next step could gain
+    if (mayLookAround && (isInLine || i == LOOK_AROUND_ROUND)) {
       mayLookAround = false;
       if (!lookAround(object, found, surface)) return;
     } else if (isInLine) {
@@ -251,6 +249,21 @@ void searchSurface(FieldObject object, inout ObjectDistance found, vec3 startGri
       surface.pointGrid += timesRows(instance.gridFromWorld, wayAlongSurface(object, surface, normal, away));
     }
   }
+}
+
+// Parts thinner than a texel count as a texel thick, as those of meshes do (passes/field_refine.comp.glsl), and a little
+// thicker because bricks round their sides: metres to be taken off. Where so far behind the surface, seen from the
+// point, lies beyond the other side, the part is as much too thin.
+float thinMetres(FieldObject object, ObjectDistance found) {
+  float texel = object.texelMetres, share = FADED_TEXELS - found.upper / texel, thick = THICK_TEXELS * texel;
+  if (share <= 0.0 || (found.side < 0.0 && share < FADED_TEXELS - 0.5)) return 0.0;
+  vec3 inwards = found.side * (found.surfaceGrid - found.pointGrid);
+  float size = lengthWorld(object.instance, inwards);
+  if (size < 1e-4 * texel) return 0.0;
+  vec3 behind = clampToBox(object.instance, found.surfaceGrid + thick / size * inwards);
+  float stepped = lengthWorld(object.instance, behind - found.surfaceGrid);
+  float beyond = object.instance.boxMax.w * max(readObject(object, behind).grid, 0.0) + thick - stepped;
+  return 0.5 * min(share, 1.0) * clamp(beyond, 0.0, thick);
 }
 
 // Metres, signed. Outside nothing may exceed the truth: at most the band's end where the bound from below lies before

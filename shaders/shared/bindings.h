@@ -33,6 +33,7 @@ SHARED_CONST uint kFieldIdBinding = 4;
 SHARED_CONST uint kFieldCandidateBinding = 6;
 SHARED_CONST uint kFieldNodeBinding = 5;
 SHARED_CONST uint kFieldSplatBinding = 6;
+SHARED_CONST uint kFieldSphereBinding = 6;
 SHARED_CONST uint kFieldTileBinding = 7;
 SHARED_CONST uint kFieldShownListBinding = 0; // and the two after it: lists of tiles that a view shows
 

@@ -28,7 +28,8 @@ constexpr std::array<const char*, ExactField::kLists> kListLabels = {"field_key_
 ExactField::ExactField()
     : params_("field_params", sizeof(shared::FieldParams)),
       splats_("field_splats", sizeof(shared::FieldSplat)),
-      parts_("field_splat_parts", 16 + std::size_t{shared::SPLAT_PART_CAPACITY} * 8) {
+      parts_("field_splat_parts", 16 + std::size_t{shared::SPLAT_PART_CAPACITY} * 8),
+      spheres_("field_spheres", 4096) {
   for (std::size_t i = 0; i < kLists; ++i) lists_[i] = Buffer(kListLabels[i], 4096);
 }
 
@@ -77,6 +78,8 @@ void ExactField::prepare(const std::vector<FieldWindow>& windows, const FieldWor
   splats_.growTo(work.splats.size() * sizeof(shared::FieldSplat));
   splats_.upload(0, work.splats);
   splatCount_ = static_cast<std::uint32_t>(work.splats.size());
+  spheres_.growTo(work.spheres.size() * sizeof(glm::vec4));
+  spheres_.upload(0, work.spheres);
 
   // The largest number is never used: a key of ones alone is no key.
   const int triangleBits = std::bit_width(work.triangleCount);
@@ -95,7 +98,7 @@ void ExactField::prepare(const std::vector<FieldWindow>& windows, const FieldWor
     params.splatMax[i] = glm::ivec4(work.keyBounds[i].max, 0);
     firstTexel += static_cast<std::uint32_t>(texelsOf(window));
   }
-  params.counts = {windows.size(), triangleBits, work.sdfInstanceCount, ++update_};
+  params.counts = {windows.size(), triangleBits, work.spheres.size(), ++update_};
   params.coarse.x = firstTexel / 8;
   params.anchor = glm::vec4(work.anchorWorld, 0);
   params_.uploadValue(params);
@@ -106,7 +109,7 @@ std::size_t ExactField::bytes() const {
   for (const Texture& texture : distances_) sum += texture.bytes();
   for (const Buffer& list : lists_) sum += list.bytes();
   for (const Buffer* buffer :
-       {&params_, &splats_, &parts_, &keys_, &ids_, &nodes_, &seeds_, &sweeps_, &candidates_, &tiles_})
+       {&params_, &splats_, &parts_, &spheres_, &keys_, &ids_, &nodes_, &seeds_, &sweeps_, &candidates_, &tiles_})
     sum += buffer->bytes();
   return sum;
 }

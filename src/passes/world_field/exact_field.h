@@ -20,7 +20,7 @@ struct FieldWork {
   std::vector<shared::FieldSplat> splats; ///< triangles that may reach the tiles whose keys are made anew
   glm::dvec3 anchorWorld{0};
   std::uint32_t triangleCount = 0; ///< numbers that may occur, for the coding of keys
-  std::uint32_t sdfInstanceCount = 0;
+  std::vector<glm::vec4> spheres;  ///< around each SDF instance, anchored; w: radius
 };
 
 class ExactField {
@@ -53,6 +53,7 @@ public:
   void bindParams() const { params_.bindUniform(shared::kFieldUniformBinding); }
   void bindList(List list) const { lists_[static_cast<std::size_t>(list)].bindStorage(shared::kFieldListBinding); }
   void bindSplats() const { splats_.bindStorage(shared::kFieldListBinding); }
+  void bindSpheres() const { spheres_.bindStorage(shared::kFieldSphereBinding); }
   void bindParts() const { parts_.bindStorage(shared::kFieldSplatBinding); }
   void bindIds() const { ids_.bindStorage(shared::kFieldIdBinding); }
   void bindKeys() const { keys_.bindStorage(shared::kFieldKeyBinding); }
@@ -72,7 +73,7 @@ private:
   std::vector<Texture> distances_;
   std::array<Buffer, kLists> lists_;
   std::array<std::uint32_t, kLists> lengths_{};
-  Buffer params_, splats_, parts_;
+  Buffer params_, splats_, parts_, spheres_;
   Buffer keys_, ids_, nodes_;          ///< a word a texel
   Buffer seeds_, sweeps_, candidates_; ///< a word a coarse texel
   Buffer tiles_;

@@ -135,6 +135,7 @@ void FieldResolvePass::record(const ExactField& field, const Buffer& triangles, 
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   scene.atlas().bind();
   scene.bindSdfInstances();
+  field.bindSpheres();
   dispatchList(*objects_, field.lengthOf(ExactField::List::Values));
 }
 

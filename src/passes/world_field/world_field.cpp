@@ -12,16 +12,33 @@ namespace {
 // Cascades are anchored anew when the eye is this many sides of the coarsest window away.
 constexpr double kAnchorSides = 4;
 
+glm::vec3 anchoredOf(const shared::SdfInstance& row, glm::dvec3 pointGrid, glm::dvec3 anchorWorld) {
+  glm::dvec3 world;
+  for (int axis = 0; axis < 3; ++axis)
+    world[axis] = glm::dot(glm::dvec4(row.worldFromGrid[axis]), glm::dvec4(pointGrid, 1.0));
+  return glm::vec3(world - anchorWorld);
+}
+
+glm::dvec3 cornerOf(const shared::SdfInstance& row, int corner) {
+  glm::dvec3 grid;
+  for (int axis = 0; axis < 3; ++axis) grid[axis] = corner >> axis & 1 ? row.boxMax[axis] : row.boxMin[axis];
+  return grid;
+}
+
 Box boxOf(const shared::SdfInstance& row, glm::dvec3 anchorWorld) {
   Box box;
-  for (int corner = 0; corner < 8; ++corner) {
-    glm::dvec4 grid(1.0);
-    for (int axis = 0; axis < 3; ++axis) grid[axis] = corner >> axis & 1 ? row.boxMax[axis] : row.boxMin[axis];
-    glm::dvec3 world;
-    for (int axis = 0; axis < 3; ++axis) world[axis] = glm::dot(glm::dvec4(row.worldFromGrid[axis]), grid);
-    box.extend(glm::vec3(world - anchorWorld));
-  }
+  for (int corner = 0; corner < 8; ++corner) box.extend(anchoredOf(row, cornerOf(row, corner), anchorWorld));
   return box;
+}
+
+/// Around the object's box; a little larger, because the GPU rounds otherwise.
+glm::vec4 sphereOf(const shared::SdfInstance& row, glm::dvec3 anchorWorld) {
+  const glm::vec3 center =
+      anchoredOf(row, glm::dvec3(glm::vec3(row.boxMin) + glm::vec3(row.boxMax)) * 0.5, anchorWorld);
+  float radius = 0;
+  for (int corner = 0; corner < 4; ++corner) // the other four lie opposite
+    radius = std::max(radius, glm::distance(center, anchoredOf(row, cornerOf(row, corner), anchorWorld)));
+  return {center, 1.0001f * radius + 1e-6f * glm::length(center)};
 }
 
 bool meets(const Box& a, const Box& b) {
@@ -124,7 +141,7 @@ void WorldField::update(const WorldTriangles& triangles, const ResidentScene& sc
   work.splats = splatsFor(triangles, work.keyBounds, windows);
   work.anchorWorld = anchorWorld_;
   work.triangleCount = triangles.triangleCount();
-  work.sdfInstanceCount = scene.sdfInstanceCount();
+  for (const shared::SdfInstance& object : scene.sdfInstances()) work.spheres.push_back(sphereOf(object, anchorWorld_));
   exact_.prepare(windows, work);
 }
 
