@@ -5,8 +5,9 @@
 // err by.
 const float BAND_TEXELS = 6.5;
 // Rank, half a texel more than the distance from closed surfaces, up to which texels of the band are evaluated
-// themselves.
-const float FINE_TEXELS = 5.0;
+// themselves. What is found for those that prove to lie a little farther is kept as well: between coarse values the
+// field might be larger than the truth there.
+const float FINE_TEXELS = 5.0, KEPT_TEXELS = 6.0;
 bool isBandTile(FieldTile tile) { return uintBitsToFloat(tile.nearestBits) < BAND_TEXELS; }
 
 // Any of its coarse texels found a surface within reach.

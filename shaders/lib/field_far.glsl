@@ -12,7 +12,7 @@ bool isInsideFar(FieldCascade cascade, WorldTriangle t, vec3 point, TriangleHit 
   bool isSure = share > SIGN_FROM_TEXELS; // nearer than a texel
   if (!isSure && isBandAt(cascade, lattice)) {
     uint answer = nodes[texelWord(cascade, lattice)];
-    if ((answer & SIGNED) != 0u) return (answer & FIELD_NODE_INSIDE) != 0u;
+    if ((answer & SIGNED) != 0u) return ((answer & FIELD_NODE_INSIDE) != 0u) != ((answer & TURNED) != 0u);
   }
   return signedTriangleDistance(t, point, 0.0) < 0.0;
 }

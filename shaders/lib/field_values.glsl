@@ -7,8 +7,9 @@ layout(std430, binding = kFieldNodeBinding) buffer NodeBlock { uint nodes[]; };
 layout(std430, binding = kFieldTileBinding) readonly buffer TileBlock { FieldTile tiles[]; };
 layout(binding = 0, r16f) uniform writeonly image3D distances[MOST_CASCADES];
 
-// Of a node's word: the texel was evaluated at full resolution; and is so near that others may ask it for its sign.
-const uint FINE = 0x40000000u, SIGNED = 0x20000000u;
+// Of a node's word: the texel was evaluated at full resolution; is so near that others may ask it for its sign; and that
+// sign was turned after they had asked, to whom it remains what it was: they may ask while it is being turned.
+const uint FINE = 0x40000000u, SIGNED = 0x20000000u, TURNED = 0x10000000u;
 const float SIGNED_TEXELS = 3.5; // rank
 // Farther away than this, candidates name a triangle that may lie up to a texel behind the nearest, and values lie
 // between those of coarse texels; a ray must not step through, so as much is taken off outside
@@ -44,9 +45,11 @@ uint nodeOf(WorldTriangle t) { return (t.codes.w >> WORLD_TRIANGLE_NODE_SHIFT) +
 bool isClosed(WorldTriangle t) { return (t.codes.w & WORLD_TRIANGLE_CLOSED) != 0u; }
 
 // The value of a texel whose nearest triangle is known for sure.
-void storeFine(uint cascadeIndex, ivec3 lattice, WorldTriangle t, vec3 point, float sheetHalf, float thin) {
+//
+// signedMetres  as signedTriangleDistance
+void storeFine(uint cascadeIndex, ivec3 lattice, WorldTriangle t, float signedMetres, float thin) {
   FieldCascade cascade = field.cascades[cascadeIndex];
-  float texels = signedTriangleDistance(t, point, sheetHalf) * cascade.texel.y;
+  float texels = signedMetres * cascade.texel.y;
   bool closed = isClosed(t);
   bool isInside = closed && texels < 0.0;
   bool isSigned = abs(texels) + cascade.texel.w <= SIGNED_TEXELS;

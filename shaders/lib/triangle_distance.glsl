@@ -73,13 +73,27 @@ TriangleHit closestOnTriangle(vec3 p, vec3 a, vec3 b, vec3 c) {
   return hit;
 }
 
-vec3 pseudonormalOf(WorldTriangle t, uint feature) {
-  if (feature == FEATURE_FACE) return areaNormal(t.a.xyz, t.b.xyz, t.c.xyz);
-  uint code = feature == 1u   ? floatBitsToUint(t.a.w)
-              : feature == 2u ? floatBitsToUint(t.b.w)
-              : feature == 3u ? floatBitsToUint(t.c.w)
-                              : t.codes[feature - FEATURE_EDGE];
-  return directionFromOctahedral(unpackSnorm2x16(code));
+// Of a point `away` from where it is nearest to the triangle: a direction on whose side the outside lies.
+vec3 pseudonormalOf(WorldTriangle t, TriangleHit hit, vec3 away) {
+  if (hit.feature == FEATURE_FACE) return areaNormal(t.a.xyz, t.b.xyz, t.c.xyz);
+  uint edge = hit.feature - FEATURE_EDGE;
+  uint code = hit.feature == 1u   ? floatBitsToUint(t.a.w)
+              : hit.feature == 2u ? floatBitsToUint(t.b.w)
+              : hit.feature == 3u ? floatBitsToUint(t.c.w)
+                                  : t.codes[edge];
+  if ((code & 0xffffu) != WORLD_TRIANGLE_FOLDED) return directionFromOctahedral(unpackSnorm2x16(code));
+  vec3 from = edge == 0u ? t.a.xyz : edge == 1u ? t.b.xyz : t.c.xyz;
+  vec3 to = edge == 0u ? t.b.xyz : edge == 1u ? t.c.xyz : t.a.xyz;
+  vec3 opposite = edge == 0u ? t.c.xyz : edge == 1u ? t.a.xyz : t.b.xyz;
+  uint part = uint(shareAlong(to - from, hit.closest - from) * float(WORLD_TRIANGLE_FOLD_PARTS));
+  bool isOutside = (code >> 16u + min(part, WORLD_TRIANGLE_FOLD_PARTS - 1u) & 1u) != 0u;
+  // From the face to beyond its edge. What is nearest to the edge lies on that side, but for rounding where it is right
+  // above the face, or where the face is a sliver.
+  vec3 along = to - from, beyond = hit.closest - opposite;
+  vec3 before = beyond - along * (dot(beyond, along) / max(dot(along, along), 1e-37));
+  bool isSliver = dot(before, before) < 1e-6 * dot(beyond, beyond);
+  before = (isSliver ? vec3(0.0) : unitOrZero(before)) + 0.1 * unitOrZero(away);
+  return isOutside ? before : -before;
 }
 
 // Metres: negative inside closed surfaces; of sheets the distance less half their thickness.
@@ -87,6 +101,7 @@ float signedTriangleDistance(WorldTriangle t, vec3 p, float sheetHalfThickness) 
   if ((t.codes.w & WORLD_TRIANGLE_CLOSED) == 0u)
     return sqrt(squaredTriangleDistance(p, t.a.xyz, t.b.xyz, t.c.xyz)) - sheetHalfThickness;
   TriangleHit hit = closestOnTriangle(p, t.a.xyz, t.b.xyz, t.c.xyz);
+  vec3 away = p - hit.closest;
   float distance = sqrt(hit.squared);
-  return dot(p - hit.closest, pseudonormalOf(t, hit.feature)) < 0.0 ? -distance : distance;
+  return dot(away, pseudonormalOf(t, hit, away)) < 0.0 ? -distance : distance;
 }

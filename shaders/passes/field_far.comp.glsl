@@ -1,5 +1,9 @@
 // What the band's rounds left: between the coarse values in tiles that a surface reaches; elsewhere the range with the
 // sign of the first tile along an axis that one reaches. Fine texels whose own sign is not sure ask for it.
+//
+// Where closed parts, or folds of one, reach into each other, a surface that lies buried shows its outside to what is
+// inside, and signs contradict each other: opposite ones lie closer together than any surface. There what one texel of
+// several sees from behind is inside for all.
 #include "lib/field_far.glsl"
 
 layout(local_size_x = 128) in;
@@ -14,6 +18,12 @@ const int APRON = COARSE_TILE + 2;
 shared float coarseTexels[APRON * APRON * APRON];
 shared uint coarseNodes[COARSE_TILE_TEXELS];
 shared int reached[6];
+shared bool isTorn; // signs of the tile contradict each other
+
+// Coarse neighbours lie two texels apart. Of opposite signs their distances sum to no more, and what candidates err by.
+const float TORN_TEXELS = 2.0 + 0.8;
+// From a texel to the farthest of the eight coarse ones around it, 1.5 along each axis, and the same.
+const float TOLD_TEXELS = 2.5980762 + 0.6;
 
 float coarseValue(FieldCascade cascade, ivec3 coarse) {
   uint word = coarseWord(cascade, coarse);
@@ -30,21 +40,8 @@ bool isInsideAt(FieldCascade cascade, FieldTile tile, ivec3 firstCoarse, ivec3 c
   return texels < 0.0;
 }
 
-// A fine texel whose sign is better asked for than its own.
-void reviseSign(uint cascadeIndex, FieldCascade cascade, ivec3 lattice) {
-  uint word = nodes[texelWord(cascade, lattice)], id = ids[texelWord(cascade, lattice)];
-  if ((word & SIGNED) != 0u) return;
-  WorldTriangle t = triangles[id & ~FIELD_ID_KEYED];
-  if (!isClosed(t)) return;
-  vec3 point = texelCenter(cascade, lattice);
-  TriangleHit hit = closestOnTriangle(point, t.a.xyz, t.b.xyz, t.c.xyz);
-  bool isInside = isInsideFar(cascade, t, point, hit);
-  if (isInside == ((word & FIELD_NODE_INSIDE) != 0u)) return;
-  float texels = sqrt(hit.squared) * cascade.texel.y;
-  store(cascadeIndex, lattice, isInside ? -texels : sureTexels(texels, 0.0), word ^ FIELD_NODE_INSIDE);
-}
-
 void load(ListedTile tile, FieldCascade cascade, float unknown) {
+  if (gl_LocalInvocationIndex == 0u) isTorn = false;
   ivec3 firstCoarse = tile.firstTexel / COARSE, first = cascade.window.xyz / COARSE;
   for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += 128) {
     // Beyond the window's border stand the values of the border.
@@ -59,18 +56,59 @@ void load(ListedTile tile, FieldCascade cascade, float unknown) {
   barrier();
 }
 
-// Texels between the eight coarse ones around a texel of the tile.
-float between(ivec3 at) {
-  ivec3 lowest = (at + 1) >> 1;                          // of the eight, in the apron
-  vec3 part = mix(vec3(0.75), vec3(0.25), vec3(at & 1)); // of the upper ones: centres lie at quarters
+// After load.
+void findTears() {
+  for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += 128) {
+    ivec3 at = cubeIndex(i, APRON);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (at[axis] == APRON - 1) continue;
+      float own = coarseTexels[i], other = coarseTexels[i + (axis == 0 ? 1 : axis == 1 ? APRON : APRON * APRON)];
+      if (own * other < 0.0 && abs(own - other) > TORN_TEXELS) isTorn = true;
+    }
+  }
+  barrier();
+}
+
+// The eight coarse texels around a texel of the tile.
+struct Around {
+  vec4 low, high; // in x; in the order of y, z
+};
+
+Around around(ivec3 at) {
+  ivec3 lowest = (at + 1) >> 1; // of the eight, in the apron
   int c = (lowest.z * APRON + lowest.y) * APRON + lowest.x;
   const int Y = APRON, Z = APRON * APRON;
-  vec4 alongX = mix(vec4(coarseTexels[c], coarseTexels[c + Y], coarseTexels[c + Z], coarseTexels[c + Y + Z]),
-                    vec4(coarseTexels[c + 1], coarseTexels[c + Y + 1], coarseTexels[c + Z + 1],
-                         coarseTexels[c + Y + Z + 1]),
-                    part.x);
+  int d = c + 1;
+  return Around(vec4(coarseTexels[c], coarseTexels[c + Y], coarseTexels[c + Z], coarseTexels[c + Y + Z]),
+                vec4(coarseTexels[d], coarseTexels[d + Y], coarseTexels[d + Z], coarseTexels[d + Y + Z]));
+}
+
+float leastOf(Around texels) {
+  vec4 least = min(texels.low, texels.high);
+  return min(min(least.x, least.y), min(least.z, least.w));
+}
+
+float between(ivec3 at, Around texels) {
+  vec3 part = mix(vec3(0.75), vec3(0.25), vec3(at & 1)); // of the upper ones: centres lie at quarters
+  vec4 alongX = mix(texels.low, texels.high, part.x);
   vec2 alongY = mix(alongX.xz, alongX.yw, part.y);
   return mix(alongY.x, alongY.y, part.z);
+}
+
+// A fine texel whose sign is better asked for than its own.
+//
+// isTold  the coarse ones around it lie so deep inside that it does as well
+void reviseSign(uint cascadeIndex, FieldCascade cascade, ivec3 lattice, bool isTold) {
+  uint word = nodes[texelWord(cascade, lattice)], id = ids[texelWord(cascade, lattice)];
+  if ((word & SIGNED) != 0u && (!isTold || (word & FIELD_NODE_INSIDE) != 0u)) return;
+  WorldTriangle t = triangles[id & ~FIELD_ID_KEYED];
+  if (!isClosed(t)) return;
+  vec3 point = texelCenter(cascade, lattice);
+  TriangleHit hit = closestOnTriangle(point, t.a.xyz, t.b.xyz, t.c.xyz);
+  bool isInside = isTold || isInsideFar(cascade, t, point, hit);
+  if (isInside == ((word & FIELD_NODE_INSIDE) != 0u)) return;
+  float texels = sqrt(hit.squared) * cascade.texel.y;
+  store(cascadeIndex, lattice, isInside ? -texels : sureTexels(texels, 0.0), word ^ (FIELD_NODE_INSIDE | TURNED));
 }
 
 void resolveReached(ListedTile tile, FieldCascade cascade) {
@@ -78,13 +116,17 @@ void resolveReached(ListedTile tile, FieldCascade cascade) {
   bool isBand = isBandTile(kept);
   bool isInside = coarseValue(cascade, tile.firstTexel / COARSE + cubeIndex(int(kept.nearestTexel), COARSE_TILE)) < 0.0;
   load(tile, cascade, isInside ? -cascade.texel.z : cascade.texel.z);
+  findTears();
   for (int i = int(gl_LocalInvocationIndex); i < int(FIELD_TILE_TEXELS); i += 128) {
     ivec3 at = cubeIndex(i, int(FIELD_TILE)), lattice = tile.firstTexel + at;
     if (isBand && (nodes[texelWord(cascade, lattice)] & FINE) != 0u) {
-      reviseSign(tile.cascade, cascade, lattice);
+      reviseSign(tile.cascade, cascade, lattice, isTorn && leastOf(around(at)) < -TOLD_TEXELS);
       continue;
     }
-    float texels = between(at);
+    Around coarseOnes = around(at);
+    // All of them lie nearer to the texel than any surface.
+    if (isTorn && leastOf(coarseOnes) < 0.0) coarseOnes = Around(-abs(coarseOnes.low), -abs(coarseOnes.high));
+    float texels = between(at, coarseOnes);
     ivec3 coarse = at >> 1;
     uint node = coarseNodes[(coarse.z * COARSE_TILE + coarse.y) * COARSE_TILE + coarse.x];
     store(tile.cascade, lattice, texels, node | (texels < 0.0 ? FIELD_NODE_INSIDE : 0u));

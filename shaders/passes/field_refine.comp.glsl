@@ -52,12 +52,12 @@ void considerAt(int at, vec3 point, float sheetHalf, inout Nearest nearest) {
 // Closed parts thinner than a texel count as a texel thick, else rays slip through between texels: what is to be taken
 // off. A texel behind the nearest place, seen from outside, lies beyond such a part, by as much as the part is thinner
 // than a texel; each of its sides gives half. One to two texels away the rule fades.
-float thinTexels(FieldCascade cascade, WorldTriangle t, vec3 point) {
-  if (!isClosed(t)) return 0.0;
-  TriangleHit hit = closestOnTriangle(point, t.a.xyz, t.b.xyz, t.c.xyz);
+//
+// outwards  pseudonormal at the nearest place of a closed part
+float thinTexels(FieldCascade cascade, vec3 point, TriangleHit hit, vec3 outwards) {
   float texels = sqrt(hit.squared) * cascade.texel.y, share = 2.0 - texels;
   if (share <= 0.0) return 0.0;
-  vec3 outwards = pseudonormalOf(t, hit.feature), away = point - hit.closest;
+  vec3 away = point - hit.closest;
   bool isInside = dot(away, outwards) < 0.0;
   if (isInside && texels > 0.5) return 0.0; // of a part that is thick enough
   bool isOn = hit.squared * cascade.texel.y * cascade.texel.y < 1e-4;
@@ -70,9 +70,23 @@ float thinTexels(FieldCascade cascade, WorldTriangle t, vec3 point) {
   WorldTriangle back = triangles[id & ~FIELD_ID_KEYED];
   if (!isClosed(back)) return 0.0;
   TriangleHit backHit = closestOnTriangle(behind, back.a.xyz, back.b.xyz, back.c.xyz);
-  vec3 backOutwards = unitOrZero(pseudonormalOf(back, backHit.feature)), beyond = behind - backHit.closest;
+  vec3 beyond = behind - backHit.closest, backOutwards = unitOrZero(pseudonormalOf(back, backHit, beyond));
   bool isBack = dot(beyond, backOutwards) > 0.0 && dot(backOutwards, direction) < -0.3;
   return isBack ? 0.5 * min(share, 1.0) * min(length(beyond) * cascade.texel.y, 1.0) : 0.0;
+}
+
+void storeNearest(uint cascadeIndex, ivec3 lattice, vec3 point, Nearest nearest) {
+  FieldCascade cascade = field.cascades[cascadeIndex];
+  WorldTriangle t = triangles[nearest.triangle];
+  if (!isClosed(t)) {
+    storeFine(cascadeIndex, lattice, t, nearest.rank - cascade.texel.w * cascade.texel.x, 0.0);
+    return;
+  }
+  TriangleHit hit = closestOnTriangle(point, t.a.xyz, t.b.xyz, t.c.xyz);
+  vec3 away = point - hit.closest, outwards = pseudonormalOf(t, hit, away);
+  float metres = sqrt(hit.squared);
+  storeFine(cascadeIndex, lattice, t, dot(away, outwards) < 0.0 ? -metres : metres,
+            thinTexels(cascade, point, hit, outwards));
 }
 
 void main() {
@@ -91,10 +105,9 @@ void main() {
     // The texel itself, then its neighbours along the axes.
     int count = (apron[own] & FIELD_ID_KEYED) == 0u ? 7 : 1;
     for (int n = 0; n < count; ++n) considerAt(own + (n == 0 ? 0 : faceStep(n - 1)), point, sheetHalf, nearest);
-    if (nearest.rank > FINE_TEXELS * cascade.texel.x)
+    if (nearest.rank > KEPT_TEXELS * cascade.texel.x)
       nodes[texelWord(cascade, lattice)] = 0u;
     else
-      storeFine(tile.cascade, lattice, triangles[nearest.triangle], point, sheetHalf,
-                thinTexels(cascade, triangles[nearest.triangle], point));
+      storeNearest(tile.cascade, lattice, point, nearest);
   }
 }

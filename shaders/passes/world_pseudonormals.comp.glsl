@@ -17,6 +17,16 @@ layout(std430, binding = kGatherChunkBinding) readonly buffer ChunkBlock { Gathe
 layout(std430, binding = kGatherFanStartBinding) readonly buffer FanStartBlock { uint fanStarts[]; };
 layout(std430, binding = kGatherFanCornerBinding) readonly buffer FanCornerBlock { uint fanCorners[]; };
 
+// Cosine between the normals of two faces below which their edge is looked at closely.
+const float FOLDED_COSINE = -0.6;
+// Of the edge's length: how far before it. Far enough for floats, and nearer than what else lies there.
+const float PROBE_SHARE = 0.02;
+// Least solid angle that outweighs the edge's own normals; a plane right behind the probe takes up 2 pi.
+const float SURE_SOLID_ANGLE = 2.5;
+// Of two normals' sum: faces as close as this leave nothing between them, and its direction is that of rounding.
+const float FLAT_SUM = 0.001;
+const uint MOST_OF_FAN = 64u;
+
 uniform uint triangleChunks;
 uniform uint chunkCount;
 
@@ -59,15 +69,75 @@ uint edgeTowards(WorldInstance instance, uint triangle, uint beyond) {
   return back.x == triangle ? 0u : back.y == triangle ? 1u : 2u;
 }
 
+vec3 cornerOf(uint row, uint corner) {
+  return corner == 0u   ? worldTriangles[row].a.xyz
+         : corner == 1u ? worldTriangles[row].b.xyz
+                        : worldTriangles[row].c.xyz;
+}
+
+// Solid angle of a triangle seen from the origin, negative from its outside (Van Oosterom and Strackee 1983).
+float solidAngle(vec3 a, vec3 b, vec3 c) {
+  float la = length(a), lb = length(b), lc = length(c);
+  float y = dot(a, cross(b, c)), x = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  return y != 0.0 || x != 0.0 ? 2.0 * atan(y, x) : 0.0;
+}
+
+// Of the faces around the vertex where `edge` of `triangle` begins, but for the one beyond that edge.
+// probe  from the corner `origin`
+float fanSolidAngle(WorldInstance instance, vec3 origin, vec3 probe, uint triangle, uint edge) {
+  uint last = topology[instance.triangles.z + triangle].neighbours[edge];
+  float sum = 0.0;
+  for (uint i = 0u; i < MOST_OF_FAN; ++i) {
+    uint row = instance.triangles.x + triangle;
+    sum += solidAngle(cornerOf(row, 0u) - origin - probe, cornerOf(row, 1u) - origin - probe,
+                      cornerOf(row, 2u) - origin - probe);
+    uint beyond = topology[instance.triangles.z + triangle].neighbours[(edge + 2u) % 3u];
+    if (beyond == NO_NEIGHBOUR || beyond == last) break;
+    edge = edgeTowards(instance, triangle, beyond), triangle = beyond;
+  }
+  return sum;
+}
+
+// Of an edge whose faces fold onto each other. Where a skin is pinched or a mesh was thinned out such a fold may be a
+// flap turned inside out, or one without inside; the sum of its normals then points into the surface that it lies on,
+// for all that is nearest to the edge, however far away. So from right before the edge the faces around both its ends
+// are asked: do they show their outside? Other faces may go through the fold, so each part of the edge is asked for
+// itself.
+uint foldedCode(WorldInstance instance, bool mirrored, uint triangle, uint edge, vec3 own, vec3 other) {
+  uint row = instance.triangles.x + triangle, place = edgeInRow(edge, mirrored);
+  uint beyond = topology[instance.triangles.z + triangle].neighbours[edge];
+  uint edgeBack = edgeTowards(instance, triangle, beyond);
+  vec3 origin = cornerOf(row, place), along = cornerOf(row, (place + 1u) % 3u) - origin;
+  vec3 before = unitOrZero(cross(along, own - other)); // away from both faces, half-way between them
+  float opening = dot(own + other, before);            // of a ridge positive, of a groove negative
+  uint outside = 0u;
+  for (uint part = 0u; part < WORLD_TRIANGLE_FOLD_PARTS; ++part) {
+    float share = (float(part) + 0.5) / float(WORLD_TRIANGLE_FOLD_PARTS);
+    vec3 probe = share * along + PROBE_SHARE * length(along) * before;
+    float angle = fanSolidAngle(instance, origin, probe, triangle, edge) +
+                  fanSolidAngle(instance, origin, probe, beyond, edgeBack);
+    bool isAsked = abs(angle) > SURE_SOLID_ANGLE || abs(opening) < FLAT_SUM;
+    if (isAsked ? angle < 0.0 : opening > 0.0) outside |= 1u << part;
+  }
+  return outside << 16u | WORLD_TRIANGLE_FOLDED;
+}
+
+uint edgeCode(WorldInstance instance, bool mirrored, uint triangle, uint edge) {
+  uint beyond = topology[instance.triangles.z + triangle].neighbours[edge];
+  vec3 own = normalSeenFrom(instance, mirrored, triangle, edge);
+  if (beyond == NO_NEIGHBOUR) return codeOf(own);
+  vec3 other = normalSeenFrom(instance, mirrored, beyond, edgeTowards(instance, triangle, beyond));
+  bool isClosed = (worldTriangles[instance.triangles.x + triangle].codes.w & WORLD_TRIANGLE_CLOSED) != 0u;
+  if (dot(own, other) < FOLDED_COSINE && isClosed) return foldedCode(instance, mirrored, triangle, edge, own, other);
+  vec3 sum = own + other;
+  // Sheets have no sides: where both faces of one fold onto each other any direction will do.
+  return codeOf(dot(sum, sum) > 1e-12 ? sum : own);
+}
+
 void codeEdges(WorldInstance instance, bool mirrored, uint triangle) {
   uint row = instance.triangles.x + triangle;
-  uvec4 beyond = topology[instance.triangles.z + triangle].neighbours;
   for (uint edge = 0u; edge < 3u; ++edge) {
-    vec3 own = normalSeenFrom(instance, mirrored, triangle, edge), sum = own;
-    if (beyond[edge] != NO_NEIGHBOUR)
-      sum += normalSeenFrom(instance, mirrored, beyond[edge], edgeTowards(instance, triangle, beyond[edge]));
-    // Two faces that fold onto each other leave nothing between them; then any side is as good.
-    uint code = codeOf(dot(sum, sum) > 1e-12 ? sum : own);
+    uint code = edgeCode(instance, mirrored, triangle, edge);
     uint place = edgeInRow(edge, mirrored);
     if (place == 0u) worldTriangles[row].codes.x = code;
     else if (place == 1u) worldTriangles[row].codes.y = code;

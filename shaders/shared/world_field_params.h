@@ -9,7 +9,7 @@ SHARED_BEGIN
 
 // A triangle of a drawn instance where it stands this frame. Pseudonormals (Baerentzen and Aanaes 2005) are octahedral,
 // SNORM 2x16: angle weighted at the corners, sums of both faces at the edges; they tell inside from outside on closed
-// surfaces whatever feature is closest.
+// surfaces whatever feature is closest. Folded edges are coded in another way, see WORLD_TRIANGLE_FOLDED.
 struct WorldTriangle {
   vec4 a; // anchored; w: bits of the corner's pseudonormal
   vec4 b;
@@ -21,6 +21,11 @@ SHARED_ASSERT_SIZE(WorldTriangle, 64)
 SHARED_CONST uint WORLD_TRIANGLE_CLOSED = 1; // of a closed surface: its distance is signed; else it is a sheet
 SHARED_CONST uint WORLD_TRIANGLE_EMPTY = 2;  // not finite, or of an instance that is not drawn: no triangle at all
 SHARED_CONST uint WORLD_TRIANGLE_NODE_SHIFT = 2;
+// In place of an edge's pseudonormal where both faces fold onto each other: the lower half of the word is this, which
+// no packed direction has; from bit 16 on, a bit for each of as many equal parts of the edge, in its direction: 1 where
+// what is nearest to it lies outside.
+SHARED_CONST uint WORLD_TRIANGLE_FOLDED = 0x8000;
+SHARED_CONST uint WORLD_TRIANGLE_FOLD_PARTS = 16;
 
 // Each group of GATHER_TRIANGLES threads makes as many triangles, or pseudonormals, of one instance.
 SHARED_CONST uint GATHER_TRIANGLES = 64;
@@ -72,7 +77,7 @@ SHARED_CONST uint FIELD_NONE = 0xffffffffu; // no triangle; no key
 SHARED_CONST uint FIELD_ID_KEYED = 0x80000000u;
 // A texel's node: number + 1, 0 where nothing is in range; and whether it lies inside a closed mesh.
 SHARED_CONST uint FIELD_NODE_INSIDE = 0x80000000u;
-SHARED_CONST uint FIELD_NODE_MASK = 0x1fffffffu;
+SHARED_CONST uint FIELD_NODE_MASK = 0x0fffffffu;
 SHARED_CONST uint FIELD_NODE_UNCERTAIN = 0xffffffffu; // to readers: the texels around a point name different ones
 
 // Up to GATHER_TRIANGLES triangles to leave their keys in one cascade.

@@ -182,5 +182,77 @@ TEST_F(WorldSignsTest, SliversPassOnTheNormalsOfTheirNeighbours) {
   }
 }
 
+// A slit along z in the top of a pyramid, covered by a gable over its ridge P-T-Q, `apart` metres wide at its foot.
+// With less than nothing its walls have changed places: it is inside out, as pinched skin is.
+//
+//   P ---- L,R ---- Q    T above L and R
+Scene gableScene(float apart) {
+  constexpr std::uint32_t kP = 4, kQ = 5, kLeft = 6, kRight = 7, kTop = 8, kBottom = 9;
+  Mesh mesh;
+  Primitive& primitive = mesh.primitives.emplace_back();
+  const float half = 0.5f * apart;
+  primitive.positions = {{-1, 0, -1},  {1, 0, -1},    {1, 0, 1},    {-1, 0, 1},    {0, 0, -0.3f},
+                         {0, 0, 0.3f}, {-half, 0, 0}, {half, 0, 0}, {0, 0.04f, 0}, {0, -1, 0}};
+  primitive.normals.assign(primitive.positions.size(), glm::vec3(0, 1, 0));
+  const std::vector<std::array<std::uint32_t, 3>> top = {{0, 3, kLeft},  {0, kLeft, kP},  {3, kQ, kLeft},
+                                                         {2, 1, kRight}, {1, kP, kRight}, {2, kRight, kQ},
+                                                         {0, kP, 1},     {3, 2, kQ}};
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    primitive.indices.insert(primitive.indices.end(), {a, b, c});
+  };
+  for (const auto& t : top) {
+    add(t[0], t[1], t[2]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+      if (from < kP && to < kP) add(to, from, kBottom);
+      if (from >= kP && to >= kP) add(to, from, kTop); // along the slit
+    }
+  }
+  Scene scene;
+  scene.meshes.push_back(std::move(mesh));
+  scene.nodes.resize(1);
+  scene.nodes[0].mesh = 0;
+  scene.scenes.push_back({"scene", {0}});
+  return scene;
+}
+
+// What is nearest to a ridge lies outside, also where the fold is inside out and its normals say the contrary.
+TEST_F(WorldSignsTest, FoldsAreAskedForWhatIsAroundThem) {
+  for (const float apart : {0.01f, -0.01f})
+    for (const float mirror : {1.0f, -1.0f}) {
+      SCOPED_TRACE(testing::Message() << apart << " m wide, scaled by " << mirror);
+      Scene scene = gableScene(apart);
+      scene.nodes[0].scale = {1, 1, mirror};
+      const Pose pose = poseScene(scene, {});
+      Gathering gathering(scene);
+      gathering.set(pose, glm::dvec3(0));
+      const std::vector<shared::WorldTriangle> triangles = gathering.gather();
+      const FieldOracle oracle(scene, pose);
+      ASSERT_EQ(oracle.closedParts(), 1u);
+      std::vector<glm::dvec3> points;
+      std::vector<std::uint32_t> numbers;
+      std::vector<double> expected;
+      const glm::dvec3 foot(0, 0, -0.3 * mirror), tip(0, 0.04f, 0),
+          above = glm::normalize(glm::dvec3(0, 0.3, -0.04 * mirror));
+      for (int i = 1; i < 17; ++i) // right before the tip little but the gable is in sight
+        for (const double height : {0.01, 0.1, 1.0}) {
+          const glm::dvec3 point = glm::mix(foot, tip, (i + 0.3) / 20.0) + height * above;
+          const FieldTruth truth = oracle.at(point);
+          ASSERT_FALSE(truth.insideClosed);
+          if (truth.closedDistance < height - 1e-6) continue;
+          for (std::uint32_t t = 0; t < triangles.size(); ++t)
+            points.push_back(point), numbers.push_back(t), expected.push_back(height);
+        }
+      const std::vector<float> actual = ask(triangles, points, numbers);
+      std::size_t asked = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (std::abs(actual[i]) > expected[i] + 1e-6) continue; // of another triangle
+        EXPECT_GT(actual[i], 0) << "triangle " << numbers[i] << ", " << expected[i] << " m above";
+        ++asked;
+      }
+      EXPECT_GT(asked, 80u); // by both faces of the ridge
+    }
+}
+
 } // namespace
 } // namespace brickfield::test

@@ -16,6 +16,7 @@ namespace brickfield::test {
 namespace {
 
 constexpr std::size_t kMostTexels = 300000; // all of 64^3, a seventh of 128^3
+constexpr std::size_t kAllTexels = std::size_t{1} << 30;
 
 FieldAccuracy accuracyOf(const FieldSnapshot& field, const FieldOracle& oracle, std::size_t mostTexels,
                          const Box& box = {glm::vec3(-INFINITY), glm::vec3(INFINITY)}) {
@@ -38,26 +39,27 @@ void print(const std::string& name, const FieldAccuracy& e) {
 
 class ExactField : public GlTest {
 protected:
-  static FieldAccuracy measure(const std::string& name, const Scene& scene, int texels, double seconds) {
+  static FieldAccuracy measure(const std::string& name, const Scene& scene, int texels, double seconds,
+                               std::size_t mostTexels = kMostTexels) {
     PoseRequest request;
     if (seconds >= 0) request.seconds = seconds;
     const Pose pose = poseScene(scene, request);
     WorldFieldStage stage(scene, {}, {1, texels, 0, true});
     stage.frame(pose, glm::dvec3(0));
-    const FieldAccuracy error = accuracyOf(stage.read(), FieldOracle(scene, pose), kMostTexels);
+    const FieldAccuracy error = accuracyOf(stage.read(), FieldOracle(scene, pose), mostTexels);
     print(name, error);
     return error;
   }
 };
 
 // What a texel of the band may err by: the numbers that the field is to keep.
-void expectExact(const FieldAccuracy& error, double farthestWrongSign = 0.5) {
+void expectExact(const FieldAccuracy& error) {
   EXPECT_GT(error.texels, 1000u);
   EXPECT_LE(error.rms, 0.01);
   EXPECT_LE(error.p999, 0.12);
   EXPECT_LE(error.farAbove, 0.05) << "a ray would step through";
   EXPECT_LE(error.wrongSigns, 1e-4);
-  EXPECT_LE(error.farthestWrongSign, farthestWrongSign);
+  EXPECT_LE(error.farthestWrongSign, 0.5);
 }
 
 TEST_F(ExactField, SphereIsExact) {
@@ -72,16 +74,18 @@ TEST_F(ExactField, RealMeshesAreExact) {
   if (!hasData()) return;
   for (const char* file : {"torus_5k.glb", "stanford_dragon_11k.glb"})
     expectExact(measure(file, importGltf(dataFile(file)), 128, -1));
-  // Its legs are thinner than a texel: a texel in a hundred thousand takes the side of the leg's other face.
-  expectExact(measure("scorpion_100k.glb", importGltf(dataFile("scorpion_100k.glb")), 128, -1), 4.0);
+  // Its mesh was thinned out and has flaps without inside, whose edges are nearest to few texels, but to some far away.
+  expectExact(measure("scorpion_100k.glb", importGltf(dataFile("scorpion_100k.glb")), 128, -1, kAllTexels));
 }
 
+// Limbs reach into the body, and skin is pinched so that it turns inside out.
 TEST_F(ExactField, SkinsAreExactAtThreeTimes) {
   if (!hasData()) return;
-  for (const char* file : {"fox.glb", "cesium_man.glb"})
-    for (const double seconds :
-         {0.0, 0.3, 0.9}) // beside folds that reach into each other a texel may ask the wrong one
-      expectExact(measure(file, importGltf(dataFile(file)), 64, seconds), 1.0);
+  for (const char* file : {"fox.glb", "cesium_man.glb"}) {
+    const Scene scene = importGltf(dataFile(file));
+    for (const double seconds : {0.0, 0.3, 0.9}) expectExact(measure(file, scene, 64, seconds));
+    expectExact(measure(file, scene, 128, 0, kAllTexels));
+  }
 }
 
 // A sphere circles through a torus; after each frame the field is to the bit what it would be without a past.
