@@ -5,14 +5,17 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <span>
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include "bakers/band_bake.h"
 #include "bakers/bake_memory.h"
 #include "bakers/level_baker.h"
 #include "bakers/mask_cut.h"
 #include "bakers/sheets.h"
+#include "bakers/stage_clock.h"
 #include "bakers/thin_parts.h"
 #include "core/error.h"
 
@@ -74,8 +77,8 @@ public:
         settings_(settings),
         progress_(progress),
         memory_(input.label, settings.memoryBytes),
-        soup_(gatherTriangles(input)),
-        topology_(analyseTopology(soup_)) {
+        soup_(timed(stats_.stages.gather, [&] { return gatherTriangles(input); })),
+        topology_(timed(stats_.stages.gather, [&] { return analyseTopology(soup_); })) {
     soup_.isBackCovered = topology_.isFlatPair;
     memory_.holdTriangles(soup_.triangles.size());
   }
@@ -90,9 +93,26 @@ public:
     if (thickness_) result.field.thinParts = thinPartsAt(layout.levels.front());
     std::optional<AttributeBaker> attributes;
     if (settings_.attributes) attributes.emplace(input_, soup_);
-    for (std::size_t i = 0; i < layout.levels.size(); ++i)
-      result.field.levels.push_back(bakeOneLevel(layout, i, attributes ? &*attributes : nullptr));
-    fillStats(result);
+    for (std::size_t i = 0; i < layout.levels.size(); ++i) {
+      const bool isComplete = i + 1 == layout.levels.size();
+      result.field.levels.push_back(bakeOneLevel(layout, i, isComplete, attributes ? &*attributes : nullptr, nullptr));
+    }
+    fillStats(result.field.levels);
+    stats_.bytes = fieldBytes(result.field);
+    result.stats = stats_;
+    return result;
+  }
+
+  BandBake runBand() {
+    split();
+    const GridLayout layout = layoutLevels();
+    BandBake result;
+    result.originObject = layout.originObject;
+    result.level = bakeOneLevel(layout, 0, false, nullptr, &result.signedVoxels);
+    fillStats(std::span(&result.level, 1));
+    stats_.bytes = result.level.distances.size() + sizeof(std::uint32_t) * result.level.indirection.size();
+    result.stats = stats_;
+    result.soup = std::move(soup_);
     return result;
   }
 
@@ -123,7 +143,7 @@ private:
         request.isCutOut[t] = material.alphaMode != AlphaMode::Opaque;
         request.isDoubleSided[t] = material.doubleSided;
       }
-      split = findSheets(soup_, topology_, request);
+      split = timed(stats_.stages.gather, [&] { return findSheets(soup_, topology_, request); });
     } else {
       split.solid = std::move(all);
     }
@@ -134,11 +154,13 @@ private:
       throw BadInput(input_.label, "", "is cut away entirely by its alpha mask");
     if (!split.sheets.empty()) {
       sheets_ = split.sheets;
-      surfaces_.sheets.emplace(sheetHierarchy_.emplace(soup_, std::move(split.sheets)));
+      const StageClock clock(stats_.stages.hierarchy);
+      surfaces_.sheets.emplace(sheetHierarchy_.emplace(soup_, split.sheets));
       surfaces_.slabs.emplace(soup_, *sheetHierarchy_, slabRequest());
     }
     if (split.solid.empty()) return;
-    surfaces_.solid.emplace(solidHierarchy_.emplace(soup_, std::move(split.solid)));
+    timed(stats_.stages.hierarchy, [&] { surfaces_.solid.emplace(solidHierarchy_.emplace(soup_, split.solid)); });
+    const StageClock clock(stats_.stages.sign);
     inside_.emplace(soup_, topology_, *solidHierarchy_, settings_.sign, input_.label);
     thickness_.emplace(soup_, topology_, *surfaces_.solid, *inside_);
   }
@@ -221,11 +243,13 @@ private:
     }
   }
 
-  ThinParts thinPartsAt(const LevelLayout& level) const {
+  ThinParts thinPartsAt(const LevelLayout& level) {
+    const StageClock clock(stats_.stages.sign);
     return findThinParts(*thickness_, level.voxelSizeObject * soup_.unitsPerMetre, settings_.resolution);
   }
 
-  BrickLevel bakeOneLevel(const GridLayout& layout, std::size_t index, const AttributeBaker* attributes) {
+  BrickLevel bakeOneLevel(const GridLayout& layout, std::size_t index, bool isComplete,
+                          const AttributeBaker* attributes, std::vector<float>* signedVoxels) {
     BakeProgress progress(progress_,
                           fmt::format("bake {}, level {} of {}", input_.label, index + 1, layout.levels.size()));
     LevelBakeRequest request;
@@ -233,6 +257,8 @@ private:
     request.format = distanceFormatOfBits(settings_.bits);
     request.inside = inside_ ? &*inside_ : nullptr;
     request.attributes = attributes;
+    request.stats = &stats_;
+    request.signedVoxels = signedVoxels;
     const double voxelMetres = request.layout.voxelSizeObject;
     SamplingRequest& sampling = request.sampling;
     sampling.soup = &soup_;
@@ -244,7 +270,7 @@ private:
       request.thickness = &*thickness_;
       sampling.solidGrowthVoxels = kMostGrowthVoxels;
     }
-    sampling.isComplete = index + 1 == layout.levels.size();
+    sampling.isComplete = isComplete;
     sampling.admit = [&](std::size_t bricks) {
       admitMemory(bricks, layout.levels[index], index);
       progress.begin(bricks);
@@ -263,27 +289,29 @@ private:
     memory_.admit(level);
   }
 
-  void fillStats(BakeResult& result) const {
-    BakeStats& stats = result.stats;
-    stats.triangles = soup_.firstPiece();
-    stats.degenerateTriangles = soup_.degenerateCount;
-    stats.openEdges = topology_.openEdges;
-    stats.nonManifoldEdges = topology_.nonManifoldEdges;
-    stats.sheetTriangles = sheetCount_;
+  void fillStats(std::span<const BrickLevel> levels) {
+    stats_.triangles = soup_.firstPiece();
+    stats_.degenerateTriangles = soup_.degenerateCount;
+    stats_.openEdges = topology_.openEdges;
+    stats_.nonManifoldEdges = topology_.nonManifoldEdges;
+    stats_.sheetTriangles = sheetCount_;
     const bool isForced = settings_.sign == SignMethod::Parity || settings_.sign == SignMethod::Pseudonormal;
-    stats.sign = !inside_                               ? "two-sided"
-                 : settings_.sign == SignMethod::Parity ? "parity"
-                 : isForced                             ? "pseudonormal"
-                 : inside_->isConstantBetweenSurfaces() ? "winding of closed surfaces"
-                                                        : "winding of open surfaces";
-    if (inside_ && surfaces_.sheets) stats.sign += " and sheets";
-    for (const BrickLevel& level : result.field.levels) stats.bricks += level.brickCount();
-    stats.bytes = fieldBytes(result.field);
+    stats_.sign = !inside_                               ? "two-sided"
+                  : settings_.sign == SignMethod::Parity ? "parity"
+                  : isForced                             ? "pseudonormal"
+                  : inside_->isConstantBetweenSurfaces() ? "winding of closed surfaces"
+                                                         : "winding of open surfaces";
+    if (inside_ && surfaces_.sheets) stats_.sign += " and sheets";
+    for (const BrickLevel& level : levels) stats_.bricks += level.brickCount();
+    for (const auto* hierarchy : {&solidHierarchy_, &sheetHierarchy_})
+      if (*hierarchy) stats_.hierarchyBytes += (*hierarchy)->bytes();
+    if (inside_) stats_.hierarchyBytes += inside_->bytes();
   }
 
   const BakeInput& input_;
   const BakeSettings& settings_;
   const Progress& progress_;
+  BakeStats stats_;
   BakeMemory memory_;
   TriangleSoup soup_;
   MeshTopology topology_;
@@ -297,15 +325,31 @@ private:
 
 } // namespace
 
-BakeResult bakeField(const BakeInput& input, const BakeSettings& settings, const Progress& progress) {
+namespace {
+
+/// Runs a bake on as many threads as asked for. work(FieldBaker&) returns what has stats.
+template <typename Work>
+auto bakeOnThreads(const BakeInput& input, const BakeSettings& settings, const Progress& progress, const Work& work) {
   checkSettings(settings);
   const auto start = std::chrono::steady_clock::now();
-  BakeResult result;
   const int most = tbb::this_task_arena::max_concurrency(); // TBB warns on the console when asked for more
   tbb::task_arena arena(settings.threads > 0 ? std::min(settings.threads, most) : most);
-  arena.execute([&] { result = FieldBaker(input, settings, progress).run(); });
+  auto result = arena.execute([&] {
+    FieldBaker baker(input, settings, progress);
+    return work(baker);
+  });
   result.stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
+}
+
+} // namespace
+
+BakeResult bakeField(const BakeInput& input, const BakeSettings& settings, const Progress& progress) {
+  return bakeOnThreads(input, settings, progress, [](FieldBaker& baker) { return baker.run(); });
+}
+
+BandBake bakeBand(const BakeInput& input, const BakeSettings& settings, const Progress& progress) {
+  return bakeOnThreads(input, settings, progress, [](FieldBaker& baker) { return baker.runBand(); });
 }
 
 } // namespace brickfield

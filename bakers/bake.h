@@ -59,6 +59,16 @@ BakeInput bakeInputOf(const Scene& scene, const PosedInstance& instance);
 /// proved by tests/bake/bakers/scene_side_test.cpp
 BakeInput bakeInputOf(const Scene& scene, const PosedInstance& instance, const Pose& pose);
 
+/// Wall-clock seconds of a bake by what they went to.
+struct BakeSeconds {
+  double gather = 0;     ///< weld, topology, what is solid and what is a sheet
+  double hierarchy = 0;  ///< built over the triangles
+  double distance = 0;   ///< cells, then samples
+  double sign = 0;       ///< winding numbers' moments, flood, inside tests, thin parts
+  double attributes = 0; ///< of the surface
+  double packing = 0;    ///< codes and indirection
+};
+
 struct BakeStats {
   std::uint64_t triangles = 0;
   std::uint64_t degenerateTriangles = 0;
@@ -69,6 +79,9 @@ struct BakeStats {
   std::uint64_t bricks = 0; ///< of all levels
   std::uint64_t bytes = 0;
   double seconds = 0;
+  BakeSeconds stages;
+  std::uint64_t hierarchyBytes = 0; ///< with what winding numbers add to it
+  std::uint64_t queries = 0;        ///< points whose distance to a surface was asked for, all levels
 };
 
 struct BakeResult {
@@ -84,7 +97,8 @@ struct BakeResult {
 /// error     BadInput that names input.label: no triangle of positive area, nothing left by its mask, indices out of
 /// range,
 ///           positions that are not finite or too far from the origin, a level that needs more than memoryBytes (with
-///           the number, before it is made), Pseudonormal on what is no closed manifold; BadInput that names the setting: out of range; Cancelled
+///           the number, before it is made), Pseudonormal on what is no closed manifold; BadInput that names the
+///           setting: out of range; Cancelled
 /// cost      on one core about 1 us a sample near the surface; an open mesh up to three times that
 /// proved by tests/bake/bakers
 BakeResult bakeField(const BakeInput& input, const BakeSettings& settings, const Progress& progress = {});

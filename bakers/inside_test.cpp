@@ -11,19 +11,28 @@
 namespace brickfield {
 
 SolidWinding::SolidWinding(const TriangleSoup& soup, const MeshTopology& topology,
-                           const std::vector<std::uint32_t>& triangles, bool signless)
+                           const std::vector<std::uint32_t>& triangles, bool signless, const MeshHierarchy* whole)
     : signless_(signless) {
   std::vector<std::uint32_t> closedTriangles, openTriangles;
   for (const std::uint32_t triangle : triangles)
     (topology.inClosedComponent[triangle] ? closedTriangles : openTriangles).push_back(triangle);
-  const auto makePart = [&](std::optional<Part>& part, std::vector<std::uint32_t>& members) {
+  const auto makePart = [&](std::optional<Part>& part, const std::vector<std::uint32_t>& members, float farRadii) {
     if (members.empty()) return;
-    auto hierarchy = std::make_unique<MeshHierarchy>(soup, std::move(members));
-    WindingNumber winding(*hierarchy);
+    const bool isWhole = whole && members.size() == triangles.size();
+    auto hierarchy = isWhole ? nullptr : std::make_unique<MeshHierarchy>(soup, members);
+    WindingNumber winding(isWhole ? *whole : *hierarchy, farRadii);
     part.emplace(Part{std::move(hierarchy), std::move(winding)});
   };
-  makePart(closed_, closedTriangles);
-  makePart(open_, openTriangles);
+  makePart(closed_, closedTriangles,
+           signless && !openTriangles.empty() ? WindingNumber::kFarRadii : WindingNumber::kFarRadiiOfWhole);
+  makePart(open_, openTriangles, WindingNumber::kFarRadii);
+}
+
+std::size_t SolidWinding::bytes() const {
+  std::size_t sum = 0;
+  for (const std::optional<Part>* part : {&closed_, &open_})
+    if (*part) sum += (*part)->winding.bytes() + ((*part)->hierarchy ? (*part)->hierarchy->bytes() : 0);
+  return sum;
 }
 
 double SolidWinding::excess(glm::dvec3 point) const {
@@ -35,10 +44,13 @@ double SolidWinding::excess(glm::dvec3 point) const {
 
 namespace {
 std::vector<std::uint32_t> trianglesOf(const MeshHierarchy& hierarchy) {
-  std::vector<std::uint32_t> triangles;
+  std::vector<bool> isIn(hierarchy.soup().triangles.size(), false);
   for (const HierarchyLeaf& leaf : hierarchy.leaves())
-    triangles.insert(triangles.end(), leaf.triangles.begin(), leaf.triangles.begin() + leaf.count);
-  std::sort(triangles.begin(), triangles.end());
+    for (const std::uint32_t triangle : leaf.triangles) isIn[triangle] = true;
+  std::vector<std::uint32_t> triangles;
+  triangles.reserve(hierarchy.triangleCount());
+  for (std::uint32_t t = 0; t < isIn.size(); ++t)
+    if (isIn[t]) triangles.push_back(t);
   return triangles;
 }
 } // namespace
@@ -56,7 +68,7 @@ InsideTest::InsideTest(const TriangleSoup& soup, const MeshTopology& topology, c
   } else if (method == SignMethod::Parity) {
     isConstant_ = topology.isClosed();
   } else {
-    winding_.emplace(soup, topology, trianglesOf(solid), method == SignMethod::Winding);
+    winding_.emplace(soup, topology, trianglesOf(solid), method == SignMethod::Winding, &solid);
     isConstant_ = !winding_->hasOpenTriangles();
   }
 }

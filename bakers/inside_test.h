@@ -20,18 +20,21 @@ namespace brickfield {
 class SolidWinding {
 public:
   /// triangles of the soup; may be empty: nothing is inside
+  /// whole     hierarchy of all of them, used where all are closed or all open; must outlive this; may be nothing
   /// signless  |w| >= 1/2 is inside for open triangles as well (SignMethod::Winding)
   SolidWinding(const TriangleSoup& soup, const MeshTopology& topology, const std::vector<std::uint32_t>& triangles,
-               bool signless);
+               bool signless, const MeshHierarchy* whole = nullptr);
 
   /// See InsideTest::excess.
   double excess(glm::dvec3 point) const;
   /// True where the answer can change without a surface between: open triangles.
   bool hasOpenTriangles() const { return open_.has_value(); }
+  /// Of moments, and of hierarchies besides the whole one.
+  std::size_t bytes() const;
 
 private:
   struct Part {
-    std::unique_ptr<MeshHierarchy> hierarchy;
+    std::unique_ptr<MeshHierarchy> hierarchy; ///< nothing where it is the whole one
     WindingNumber winding;
   };
   std::optional<Part> closed_, open_;
@@ -54,6 +57,8 @@ public:
 
   /// True where points that can be joined without crossing a triangle always have the same answer.
   bool isConstantBetweenSurfaces() const { return isConstant_; }
+  /// What it adds to the hierarchy of the solid.
+  std::size_t bytes() const { return winding_ ? winding_->bytes() : 0; }
 
 private:
   const MeshHierarchy* solid_;

@@ -8,6 +8,7 @@
 
 #include "bakers/membranes.h"
 #include "bakers/patch_graph.h"
+#include "bakers/stage_clock.h"
 #include "bakers/thin_parts.h"
 
 namespace brickfield {
@@ -64,6 +65,19 @@ void encodeDistances(BrickLevel& level, const SignedSamples& samples, std::size_
       distancesObject[i] = samples.distances[b * kSamples + i] * level.voxelSizeObject;
     writeBrickDistances(level, static_cast<std::uint32_t>(b), distancesObject);
   });
+}
+
+BrickLevel packLevel(const LevelBakeRequest& request, const LevelSamples& samples, const LevelSigns& signs,
+                     const SignedSamples& signedSamples) {
+  const bool isComplete = request.sampling.isComplete;
+  float range = kNarrowBandVoxels;
+  if (isComplete)
+    for (const float distance : signedSamples.distances)
+      range = std::max(range, rangeVoxelsWithoutClamp(std::abs(distance)));
+  BrickLevel level = makeLevel(request.layout, isComplete ? DistanceFormat::R16Snorm : request.format, range);
+  fillIndirection(level, samples, signs);
+  encodeDistances(level, signedSamples, samples.brickCount());
+  return level;
 }
 
 /// Attributes of one brick.
@@ -160,25 +174,29 @@ void fillAttributes(BrickLevel& level, const LevelBakeRequest& request, const Le
 } // namespace
 
 BrickLevel bakeLevel(const LevelBakeRequest& request) {
-  LevelSamples samples = sampleLevel(request.sampling);
+  BakeSeconds& seconds = request.stats->stages;
+  LevelSamples samples = timed(seconds.distance, [&] { return sampleLevel(request.sampling); });
+  request.stats->queries += samples.queries;
   LevelSigns signs;
+  std::vector<float> growth;
   if (request.inside) {
+    const StageClock clock(seconds.sign);
     signs = floodSigns(samples, *request.inside);
     insertMembranes(request.sampling, *request.inside, samples, signs);
+    if (request.thickness) growth = growThinSolids(*request.thickness, request.sampling, samples, signs.sampleInside);
   }
-  std::vector<float> growth;
-  if (request.thickness) growth = growThinSolids(*request.thickness, request.sampling, samples);
-  const SignedSamples signedSamples = combine(samples, signs.sampleInside, growth);
-
-  const bool isComplete = request.sampling.isComplete;
-  float range = kNarrowBandVoxels;
-  if (isComplete)
-    for (const float distance : signedSamples.distances)
-      range = std::max(range, rangeVoxelsWithoutClamp(std::abs(distance)));
-  BrickLevel level = makeLevel(request.layout, isComplete ? DistanceFormat::R16Snorm : request.format, range);
-  fillIndirection(level, samples, signs);
-  encodeDistances(level, signedSamples, samples.brickCount());
-  if (request.attributes) fillAttributes(level, request, samples, signedSamples);
+  SignedSamples signedSamples;
+  BrickLevel level;
+  {
+    const StageClock clock(seconds.packing);
+    signedSamples = combine(samples, signs.sampleInside, growth);
+    level = packLevel(request, samples, signs, signedSamples);
+  }
+  if (request.attributes) {
+    const StageClock clock(seconds.attributes);
+    fillAttributes(level, request, samples, signedSamples);
+  }
+  if (request.signedVoxels) *request.signedVoxels = std::move(signedSamples.distances);
   return level;
 }
 

@@ -1,29 +1,24 @@
-// Cells first, by one query each; then the samples of the cells that are left. Every query starts from the triangle
-// that its neighbour found, and ends at the range: what lies beyond is clamped anyway, and the flood of signs only asks
-// whether two neighbours are farther from the surface than from each other.
+// Cells first, by one query each; then the samples of the cells that are left.
 #include "bakers/level_sampler.h"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cmath>
 
 #include <tbb/parallel_for.h>
+
+#include "bakers/brick_sampler.h"
 
 namespace brickfield {
 
 namespace {
 
 constexpr std::size_t kSamples = kBrickSampleCount;
-// The range plus what rounding and the encoding's half step might still want to see.
-constexpr double kSampledRangeVoxels = kNarrowBandVoxels + 0.0625;
 // A point of a brick's surface is at most half a cell's face diagonal from a sample of it.
 constexpr double kFaceHalfDiagonalVoxels = 0.70710679;
 constexpr double kEighthHalfDiagonalVoxels = 0.5 * kBrickHalfDiagonalVoxels;
 constexpr double kBoundSlackVoxels = 1e-3; // over the rounding of double and of the float that stores the bound
-
-/// Triangles that the last query found.
-struct Hints {
-  std::uint32_t solid = kNoTriangle, sheet = kNoTriangle;
-};
 
 /// Lower bound, in voxels, of the distance to any surface at a point; and whether a slab holds it.
 struct PointBound {
@@ -31,41 +26,72 @@ struct PointBound {
   bool inSheet = false;
 };
 
-PointBound boundAt(const SamplingRequest& request, glm::dvec3 point, Hints& hints) {
-  PointBound bound;
-  if (request.surfaces->solid) {
-    const ClosestTriangle closest = request.surfaces->solid->closest(point, HUGE_VAL, hints.solid);
-    hints.solid = closest.triangle;
-    bound.voxels = std::max(0.0, closest.distance / request.grid.voxelSize - request.solidGrowthVoxels);
+/// A query that knows how far the last one was from its surface: a walk of so much farther is the most that can follow.
+class PathOfPoints {
+public:
+  explicit PathOfPoints(const MeshDistance& surface) : surface_(surface) {}
+
+  NearestTriangle nearest(glm::dvec3 point) {
+    const NearestTriangle found =
+        surface_.nearest(point, (distance_ + glm::length(point - point_)) * kPathSlack, leaf_);
+    point_ = point, distance_ = found.distance, leaf_ = found.leaf;
+    return found;
   }
-  if (request.surfaces->sheets) {
-    const ClosestTriangle closest = request.surfaces->sheets->closest(point, HUGE_VAL, hints.sheet);
-    hints.sheet = closest.triangle;
-    const SheetSlabs& slabs = *request.surfaces->slabs;
-    const double fromSlab = slabs.distance(point, closest, request.halfThickness);
+
+private:
+  static constexpr double kPathSlack = 1.0 + 1e-9; // over the rounding of the sum
+
+  const MeshDistance& surface_;
+  glm::dvec3 point_{0.0};
+  double distance_ = std::numeric_limits<double>::infinity();
+  std::uint32_t leaf_ = kNoLeaf;
+};
+
+/// Bounds at one point after another.
+class BoundPath {
+public:
+  explicit BoundPath(const SamplingRequest& request) : request_(request) {
+    if (request.surfaces->solid) solid_.emplace(*request.surfaces->solid);
+    if (request.surfaces->sheets) sheets_.emplace(*request.surfaces->sheets);
+  }
+
+  PointBound at(glm::dvec3 point) {
+    PointBound bound;
+    const double voxelSize = request_.grid.voxelSize;
+    if (solid_) bound.voxels = std::max(0.0, solid_->nearest(point).distance / voxelSize - request_.solidGrowthVoxels);
+    if (!sheets_) return bound;
+    const SheetSlabs& slabs = *request_.surfaces->slabs;
+    const NearestTriangle nearest = sheets_->nearest(point);
+    const PointOnTriangle on = closestPointOnTriangle(point, request_.soup->corners(nearest.triangle));
+    const ClosestTriangle closest{nearest.distance, nearest.triangle, on};
+    const double fromSlab = slabs.distance(point, closest, request_.halfThickness);
     bound.inSheet = fromSlab < 0;
     // A slab behind another sheet's triangle may reach this much nearer than the closest triangle's own.
     const double least =
-        slabs.areAllCentred() ? std::abs(fromSlab) : closest.distance - SheetSlabs::depthOf(request.halfThickness);
-    bound.voxels = std::min(bound.voxels, std::max(least, 0.0) / request.grid.voxelSize);
+        slabs.areAllCentred() ? std::abs(fromSlab) : closest.distance - SheetSlabs::depthOf(request_.halfThickness);
+    bound.voxels = std::min(bound.voxels, std::max(least, 0.0) / voxelSize);
+    return bound;
   }
-  return bound;
-}
+
+private:
+  const SamplingRequest& request_;
+  std::optional<PathOfPoints> solid_, sheets_;
+};
 
 /// Bound over a whole cell. Cells that the centre cannot clear are looked at by eighths.
-float cellBound(const SamplingRequest& request, glm::ivec3 brick, Hints& hints, bool& inSheet) {
+float cellBound(const SamplingRequest& request, glm::ivec3 brick, BoundPath& path, bool& inSheet) {
   const glm::dvec3 center = request.grid.brickCenter(brick);
-  const PointBound atCenter = boundAt(request, center, hints);
+  const PointBound atCenter = path.at(center);
   inSheet = atCenter.inSheet;
   const double byCenter = atCenter.voxels - kBrickHalfDiagonalVoxels - kBoundSlackVoxels;
   if (byCenter > kTouchVoxels || byCenter < -kEighthHalfDiagonalVoxels) return static_cast<float>(byCenter);
   const double quarter = 0.25 * kBrickCells * request.grid.voxelSize;
   double byEighths = std::numeric_limits<double>::infinity();
-  Hints eighthHints = hints;
+  BoundPath eighthPath = path;
   for (int i = 0; i < 8 && byEighths > kTouchVoxels; ++i) {
     const glm::dvec3 corner(i & 1 ? quarter : -quarter, i & 2 ? quarter : -quarter, i & 4 ? quarter : -quarter);
-    const double bound = boundAt(request, center + corner, eighthHints).voxels;
-    byEighths = std::min(byEighths, bound - kEighthHalfDiagonalVoxels - kBoundSlackVoxels);
+    byEighths =
+        std::min(byEighths, eighthPath.at(center + corner).voxels - kEighthHalfDiagonalVoxels - kBoundSlackVoxels);
   }
   return static_cast<float>(std::max(byCenter, byEighths));
 }
@@ -77,59 +103,158 @@ void boundCells(const SamplingRequest& request, LevelSamples& level) {
       static_cast<std::size_t>(request.grid.brickCounts.y) * static_cast<std::size_t>(request.grid.brickCounts.z);
   const auto rowLength = static_cast<std::size_t>(request.grid.brickCounts.x);
   tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
-    Hints hints;
+    BoundPath path(request);
     for (std::size_t cell = row * rowLength; cell < (row + 1) * rowLength; ++cell) {
       bool inSheet = false;
-      level.cellBounds[cell] = cellBound(request, request.grid.brickOfCell(cell), hints, inSheet);
+      level.cellBounds[cell] = cellBound(request, request.grid.brickOfCell(cell), path, inSheet);
       level.cellInSheet[cell] = inSheet;
     }
     request.done(0);
   });
+  level.queries += level.cellBounds.size(); // eighths are not counted
 }
 
-/// One surface's distances at the 512 samples of a brick. Each query starts from the sample before it along x, at the
-/// row's start from the row before; the very first is not capped, so that there always is a triangle to start from.
-struct SurfaceSampler {
-  const SampleGrid& grid;
-  const MeshDistance& surface;
-  const SheetSlabs* slabs; ///< nothing: the distance is the triangles' own
-  double halfThickness;    ///< of the slabs
-  bool isCapped;
-
-  void run(glm::ivec3 brick, float* distances, std::uint32_t* triangles) const {
-    const double cap = kSampledRangeVoxels * grid.voxelSize + (slabs ? SheetSlabs::depthOf(halfThickness) : 0.0);
-    std::uint32_t rowHint = kNoTriangle, layerHint = kNoTriangle;
-    std::size_t i = 0;
-    for (int z = 0; z < kBrickSamples; ++z)
-      for (int y = 0; y < kBrickSamples; ++y) {
-        std::uint32_t hint = y == 0 ? layerHint : rowHint;
-        for (int x = 0; x < kBrickSamples; ++x, ++i) {
-          const double limit = isCapped && i > 0 ? cap : HUGE_VAL;
-          const glm::dvec3 point = grid.sample(brick, {x, y, z});
-          const ClosestTriangle closest = surface.closest(point, limit, hint);
-          double distance = kSampledRangeVoxels * grid.voxelSize;
-          if (closest.triangle != kNoTriangle) {
-            hint = closest.triangle;
-            distance = slabs ? slabs->distance(point, closest, halfThickness) : closest.distance;
-          }
-          distances[i] = static_cast<float>(distance / grid.voxelSize);
-          triangles[i] = hint;
-          if (x == 0) rowHint = hint;
-          if (x == 0 && y == 0) layerHint = hint;
-        }
-      }
-  }
+/// Where a brick's samples go; nothing for a surface that there is not.
+struct BrickPlaces {
+  float *solidDistances, *sheetDistances;
+  std::uint32_t *solidTriangles, *sheetTriangles;
 };
 
-float leastDistance(const SamplingRequest& request, const BrickSamples& samples) {
-  float least = std::numeric_limits<float>::infinity();
-  for (std::size_t i = 0; i < kSamples; ++i) {
-    if (request.surfaces->solid)
-      least = std::min(least, samples.solidDistances[i] - static_cast<float>(request.solidGrowthVoxels));
-    if (request.surfaces->sheets) least = std::min(least, std::abs(samples.sheetDistances[i]));
-  }
-  return least;
+void sampleRows(const SamplingRequest& request, glm::ivec3 brick, const SampleRows& rows, bool isCapped,
+                const BrickPlaces& places) {
+  const BakeSurfaces& surfaces = *request.surfaces;
+  if (surfaces.solid)
+    SurfaceSampler{request.grid, *surfaces.solid, nullptr, 0, isCapped}.run(brick, rows, places.solidDistances,
+                                                                            places.solidTriangles);
+  if (surfaces.sheets)
+    SurfaceSampler{request.grid, *surfaces.sheets, &*surfaces.slabs, request.halfThickness, isCapped}.run(
+        brick, rows, places.sheetDistances, places.sheetTriangles);
 }
+
+/// Which brick measures the samples that several share: of those that exist, the first.
+class SharedSamples {
+public:
+  /// slotOfCell  kNoBrick where there is no brick
+  SharedSamples(const SampleGrid& grid, const std::vector<std::uint32_t>& slotOfCell, glm::ivec3 brick)
+      : grid_(grid), slotOfCell_(slotOfCell), brick_(brick) {
+    for (int z = 0; z < 3; ++z)
+      for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 3; ++x) ownerOf_[static_cast<std::size_t>(9 * z + 3 * y + x)] = findOwner({x, y, z});
+  }
+
+  SampleRows ownRows() const {
+    SampleRows rows{};
+    for (std::size_t i = 0; i < kSamples; ++i)
+      if (ownerOf(sampleOfIndex(i)) == glm::ivec3(0))
+        rows[i / kBrickSamples] |= static_cast<std::uint8_t>(1u << (i % kBrickSamples));
+    return rows;
+  }
+  /// Calls visit(sample, slot of the owner, its sample) for the samples of others.
+  template <typename Visit>
+  void forEachForeign(Visit visit) const {
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const glm::ivec3 sample = sampleOfIndex(i), owner = ownerOf(sample);
+      if (owner != glm::ivec3(0))
+        visit(i, slotOfCell_[grid_.cellOfBrick(brick_ + owner)], sampleIndex(sample - kBrickCells * owner));
+    }
+  }
+
+private:
+  /// 0 in the first sample along an axis, 2 in the last, 1 between.
+  static int sideOf(int sample) { return sample == 0 ? 0 : sample == kBrickCells ? 2 : 1; }
+  glm::ivec3 ownerOf(glm::ivec3 sample) const {
+    return ownerOf_[static_cast<std::size_t>(9 * sideOf(sample.z) + 3 * sideOf(sample.y) + sideOf(sample.x))];
+  }
+  bool exists(glm::ivec3 offset) const {
+    const glm::ivec3 brick = brick_ + offset;
+    if (glm::any(glm::lessThan(brick, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(brick, grid_.brickCounts)))
+      return false;
+    return slotOfCell_[grid_.cellOfBrick(brick)] != kNoBrick;
+  }
+  /// Bricks that hold samples of these sides: along an axis the one that begins there before the one that ends there.
+  glm::ivec3 findOwner(glm::ivec3 sides) const {
+    const auto steps = [&](glm::length_t axis) { return sides[axis] == 1 ? 1 : 2; };
+    for (int z = 0; z < steps(2); ++z)
+      for (int y = 0; y < steps(1); ++y)
+        for (int x = 0; x < steps(0); ++x) {
+          const glm::ivec3 offset = glm::ivec3(sides.x == 2, sides.y == 2, sides.z == 2) - glm::ivec3(x, y, z);
+          if (exists(offset)) return offset;
+        }
+    return glm::ivec3(0);
+  }
+
+  const SampleGrid& grid_;
+  const std::vector<std::uint32_t>& slotOfCell_;
+  glm::ivec3 brick_;
+  std::array<glm::ivec3, 27> ownerOf_;
+};
+
+/// Distances at candidates: each measures its own samples, then takes those that it shares from their owners.
+class CandidateSampler {
+public:
+  CandidateSampler(const SamplingRequest& request, const std::vector<std::uint32_t>& candidates, LevelSamples& level)
+      : request_(request), candidates_(candidates), level_(level), slotOfCell_(request.grid.cellCount(), kNoBrick) {
+    for (std::uint32_t slot = 0; slot < candidates.size(); ++slot) slotOfCell_[candidates[slot]] = slot;
+  }
+
+  /// returns the least distance of each candidate's samples to a surface, in voxels
+  std::vector<float> run() {
+    std::atomic<std::uint64_t> queries = 0;
+    tbb::parallel_for(std::size_t{0}, candidates_.size(), [&](std::size_t slot) {
+      const glm::ivec3 brick = request_.grid.brickOfCell(candidates_[slot]);
+      const SampleRows rows = SharedSamples(request_.grid, slotOfCell_, brick).ownRows();
+      std::uint64_t count = 0;
+      for (const std::uint8_t row : rows) count += static_cast<std::uint64_t>(std::popcount(row));
+      queries += count;
+      const std::size_t first = slot * kSamples;
+      sampleRows(request_, brick, rows, !request_.isComplete, samplesAt(first));
+      request_.done(1);
+    });
+    std::vector<float> leastVoxels(candidates_.size());
+    tbb::parallel_for(std::size_t{0}, candidates_.size(), [&](std::size_t slot) {
+      copyForeign(slot);
+      leastVoxels[slot] = leastDistance(slot);
+    });
+    level_.queries += queries;
+    return leastVoxels;
+  }
+
+private:
+  BrickPlaces samplesAt(std::size_t first) {
+    const auto at = [first](auto& values) { return values.empty() ? nullptr : &values[first]; };
+    return {at(level_.solidDistances), at(level_.sheetDistances), at(level_.solidTriangles), at(level_.sheetTriangles)};
+  }
+  void copyForeign(std::size_t slot) {
+    const BrickPlaces to = samplesAt(slot * kSamples);
+    SharedSamples(request_.grid, slotOfCell_, request_.grid.brickOfCell(candidates_[slot]))
+        .forEachForeign([&](std::size_t sample, std::size_t owner, std::size_t ownerSample) {
+          const BrickPlaces from = samplesAt(owner * kSamples);
+          if (to.solidDistances) {
+            to.solidDistances[sample] = from.solidDistances[ownerSample];
+            to.solidTriangles[sample] = from.solidTriangles[ownerSample];
+          }
+          if (to.sheetDistances) {
+            to.sheetDistances[sample] = from.sheetDistances[ownerSample];
+            to.sheetTriangles[sample] = from.sheetTriangles[ownerSample];
+          }
+        });
+  }
+  float leastDistance(std::size_t slot) {
+    const BrickPlaces samples = samplesAt(slot * kSamples);
+    float least = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      if (samples.solidDistances)
+        least = std::min(least, samples.solidDistances[i] - static_cast<float>(request_.solidGrowthVoxels));
+      if (samples.sheetDistances) least = std::min(least, std::abs(samples.sheetDistances[i]));
+    }
+    return least;
+  }
+
+  const SamplingRequest& request_;
+  const std::vector<std::uint32_t>& candidates_;
+  LevelSamples& level_;
+  std::vector<std::uint32_t> slotOfCell_; ///< of the candidates
+};
 
 /// Copies a brick's samples to a slot of the level's arrays.
 void putBrick(const SamplingRequest& request, std::size_t slot, const BrickSamples& samples, LevelSamples& level) {
@@ -183,13 +308,9 @@ float boundBySamples(float leastVoxels) {
 }
 
 void sampleBrick(const SamplingRequest& request, glm::ivec3 brick, bool isCapped, BrickSamples& samples) {
-  const BakeSurfaces& surfaces = *request.surfaces;
-  if (surfaces.solid)
-    SurfaceSampler{request.grid, *surfaces.solid, nullptr, 0, isCapped}.run(brick, samples.solidDistances.data(),
-                                                                            samples.solidTriangles.data());
-  if (surfaces.sheets)
-    SurfaceSampler{request.grid, *surfaces.sheets, &*surfaces.slabs, request.halfThickness, isCapped}.run(
-        brick, samples.sheetDistances.data(), samples.sheetTriangles.data());
+  sampleRows(request, brick, allSamples(), isCapped,
+             {samples.solidDistances.data(), samples.sheetDistances.data(), samples.solidTriangles.data(),
+              samples.sheetTriangles.data()});
 }
 
 void storeBrick(const SamplingRequest& request, std::size_t cell, const BrickSamples& samples, LevelSamples& level) {
@@ -213,14 +334,7 @@ LevelSamples sampleLevel(const SamplingRequest& request) {
     if (request.isComplete || isBrickStored(level.cellBounds[cell])) candidates.push_back(cell);
   request.admit(candidates.size());
   resizeBricks(request, candidates.size(), level);
-  std::vector<float> leastVoxels(candidates.size());
-  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t slot) {
-    BrickSamples samples;
-    sampleBrick(request, request.grid.brickOfCell(candidates[slot]), !request.isComplete, samples);
-    leastVoxels[slot] = leastDistance(request, samples);
-    putBrick(request, slot, samples, level);
-    request.done(1);
-  });
+  const std::vector<float> leastVoxels = CandidateSampler(request, candidates, level).run();
   dropBricks(level, candidates, leastVoxels, request.isComplete);
   return level;
 }

@@ -62,6 +62,8 @@ struct LevelSamples {
   std::vector<float> sheetDistances;         ///< negative inside the slab
   std::vector<std::uint32_t> sheetTriangles;
 
+  std::uint64_t queries = 0; ///< points whose distance was asked for
+
   std::size_t brickCount() const { return cellOfBrick.size(); }
 };
 
@@ -75,6 +77,12 @@ struct SamplingRequest {
   std::function<void(std::size_t bricks)> admit; ///< asked before memory for so many bricks is taken; may throw
   std::function<void(std::size_t bricks)> done;  ///< called from any thread as bricks are finished; may throw
 };
+
+/// Position in the brick of sample number `index`.
+inline glm::ivec3 sampleOfIndex(std::size_t index) {
+  const auto i = static_cast<int>(index);
+  return {i % kBrickSamples, i / kBrickSamples % kBrickSamples, i / (kBrickSamples * kBrickSamples)};
+}
 
 /// Distances of one brick, as LevelSamples has them.
 struct BrickSamples {
@@ -94,7 +102,9 @@ float boundBySamples(float leastVoxels);
 /// A brick is stored if the surface may come within kTouchVoxels of its closed box: by the distance at its centre, then
 /// at those of its eighths, at last by its samples.
 ///
-/// cost  on one core about 1 us a sample near a dense mesh; all threads of the arena, the same result on any number
+/// Samples that bricks share are measured once.
+///
+/// cost  on one core 0.02 to 0.4 us a sample; all threads of the arena, the same result on any number
 LevelSamples sampleLevel(const SamplingRequest& request);
 
 } // namespace brickfield

@@ -1,12 +1,14 @@
-// The walk: nodes are opened nearest first from a stack whose entries remember their distance.
-//
-// Slack. Coordinates are at most R + |p| in magnitude; a float coordinate or difference of theirs is off by less than
-// 2^-23 (R + |p|), and the longest chain of such roundings in a box or triangle test stays below 16 of them. So a float
-// distance never exceeds the true one by more than 2e-6 (R + |p|), and what lies further behind the best is no rival.
+// The walk stands in closest_walk.inl and is compiled for each set of instructions.
 #include "bakers/mesh_distance.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
+
+#include "bakers/simd_level.h"
+
+#pragma GCC diagnostic ignored "-Wpsabi" // vectors of 32 bytes are passed within this file alone, and inlined
 
 namespace brickfield {
 
@@ -14,115 +16,38 @@ namespace {
 
 constexpr double kFloatSlack = 2e-6;
 
-struct Candidate {
-  float distanceSquared;
-  HierarchyChild child;
-};
-
-/// Squared distances from a point to the eight boxes of a node; 0 inside.
-Float8 boxDistancesSquared(const HierarchyNode& node, const Vector4& point) {
-  Float8 result;
-  const Float4 zero = broadcast(0.0f);
-  for (std::size_t h = 0; h < 2; ++h) {
-    const Vector4 below = node.min.half(h) - point, above = point - node.max.half(h);
-    const Vector4 outside{maximum(maximum(below.x, above.x), zero), maximum(maximum(below.y, above.y), zero),
-                          maximum(maximum(below.z, above.z), zero)};
-    result.halves[h] = dot(outside, outside);
+/// The distance to closestPointOnTriangle's point.
+inline double distanceToTriangle(glm::dvec3 point, const std::array<glm::dvec3, 3>& corners) {
+  const auto [a, b, c] = corners;
+  const glm::dvec3 ab = b - a, ac = c - a, ap = point - a;
+  const glm::dvec3 normal = glm::cross(ab, ac);
+  const double weightB = glm::dot(glm::cross(ap, ac), normal), weightC = glm::dot(glm::cross(ab, ap), normal);
+  const double normalSquared = glm::dot(normal, normal);
+  if (weightB >= 0 && weightC >= 0 && weightB + weightC <= normalSquared) {
+    const double v = weightB / normalSquared, w = weightC / normalSquared;
+    return glm::length(point - (a + v * ab + w * ac));
   }
-  return result;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::dvec3 from = corners[k], edge = corners[(k + 1u) % 3u] - from;
+    const double t = std::clamp(glm::dot(point - from, edge) / glm::dot(edge, edge), 0.0, 1.0);
+    const glm::dvec3 away = point - (from + t * edge);
+    least = std::min(least, glm::dot(away, away));
+  }
+  return std::sqrt(least);
 }
 
-/// Squared distance from origin + ap to the segment [0, edge].
-Float4 segmentDistanceSquared(const Vector4& ap, const Vector4& edge) {
-  const Vector4 rest = ap - clampUnit(dot(ap, edge) / dot(edge, edge)) * edge;
-  return dot(rest, rest);
+namespace portable {
+#include "bakers/closest_walk.inl"
 }
-
-/// Squared distances from a point to the eight triangles of a leaf: to the plane where the foot lies inside, else to
-/// the nearest edge.
-Float8 triangleDistancesSquared(const HierarchyLeaf& leaf, const Vector4& point) {
-  Float8 result;
-  const Float4 zero = broadcast(0.0f);
-  for (std::size_t h = 0; h < 2; ++h) {
-    const Vector4 ab = leaf.ab.half(h), ac = leaf.ac.half(h), normal = leaf.normal.half(h);
-    const Vector4 ap = point - leaf.a.half(h), bp = ap - ab, bc = ac - ab;
-    const Float4 edges = minimum(minimum(segmentDistanceSquared(ap, ab), segmentDistanceSquared(ap, ac)),
-                                 segmentDistanceSquared(bp, bc));
-    const Float4 height = dot(ap, normal);
-    const Float4 inside =
-        minimum(minimum(dot(cross(ab, ap), normal), dot(cross(ap, ac), normal)), dot(cross(bc, bp), normal));
-    result.halves[h] = inside >= zero ? height * height : edges;
-  }
-  return result;
+#if defined(__x86_64__)
+#pragma GCC push_options
+#pragma GCC target("avx2")
+namespace avx2 {
+#include "bakers/closest_walk.inl"
 }
-
-/// Walk state: the best so far and the float bound that a rival must not exceed.
-class ClosestSearch {
-public:
-  ClosestSearch(const MeshHierarchy& hierarchy, glm::dvec3 point, double maxDistance)
-      : hierarchy_(hierarchy), point_(point), slack_(kFloatSlack * (hierarchy.soup().reach + glm::length(point))) {
-    best_.distance = maxDistance;
-    tighten();
-  }
-
-  void measure(std::uint32_t triangle) {
-    if (triangle == best_.triangle) return;
-    const PointOnTriangle on = closestPointOnTriangle(point_, hierarchy_.soup().corners(triangle));
-    const double distance = glm::length(point_ - on.point);
-    if (distance > best_.distance || (distance == best_.distance && triangle > best_.triangle)) return;
-    best_ = {distance, triangle, on};
-    tighten();
-  }
-
-  ClosestTriangle run() {
-    const Vector4 point = broadcast(glm::vec3(point_));
-    std::array<Candidate, 64 * kHierarchyWidth> stack; // depth of the builder times what a level leaves behind
-    std::size_t size = 0;
-    stack[size++] = {0.0f, hierarchy_.root()};
-    while (size > 0) {
-      const Candidate top = stack[--size];
-      if (top.distanceSquared > bound_) continue;
-      if (top.child.isLeaf())
-        visitLeaf(hierarchy_.leaves()[top.child.index()], point);
-      else
-        size = openNode(hierarchy_.nodes()[top.child.index()], point, stack.data(), size);
-    }
-    if (best_.triangle == kNoTriangle) best_.distance = std::numeric_limits<double>::infinity();
-    return best_;
-  }
-
-private:
-  void tighten() {
-    const double reachable = best_.distance + slack_;
-    bound_ = static_cast<float>(reachable * reachable * (1.0 + 1e-6)); // 1e-6: rounding of the squares
-  }
-
-  void visitLeaf(const HierarchyLeaf& leaf, const Vector4& point) {
-    const Float8 distances = triangleDistancesSquared(leaf, point);
-    for (std::size_t i = 0; i < leaf.count; ++i)
-      if (distances.lane(i) <= bound_) measure(leaf.triangles[i]);
-  }
-
-  /// Pushes the children within reach, the nearest last.
-  std::size_t openNode(const HierarchyNode& node, const Vector4& point, Candidate* stack, std::size_t size) const {
-    const Float8 distances = boxDistancesSquared(node, point);
-    const std::size_t bottom = size;
-    for (std::size_t i = 0; i < kHierarchyWidth; ++i) {
-      const float distance = distances.lane(i);
-      if (!(distance <= bound_) || node.children[i].isNone()) continue;
-      std::size_t slot = size++;
-      for (; slot > bottom && stack[slot - 1].distanceSquared < distance; --slot) stack[slot] = stack[slot - 1];
-      stack[slot] = {distance, node.children[i]};
-    }
-    return size;
-  }
-
-  const MeshHierarchy& hierarchy_;
-  glm::dvec3 point_;
-  double slack_;
-  float bound_ = 0;
-  ClosestTriangle best_;
-};
+#pragma GCC pop_options
+#endif
 
 } // namespace
 
@@ -152,10 +77,58 @@ PointOnTriangle closestPointOnTriangle(glm::dvec3 point, const std::array<glm::d
   return best;
 }
 
+void LocalRoots::close(std::size_t childCount) {
+  count = (childCount + kHierarchyWidth - 1) / kHierarchyWidth;
+  for (std::size_t i = childCount; i < count * kHierarchyWidth; ++i) {
+    HierarchyNode& node = nodes[i / kHierarchyWidth];
+    node.min.setLane(i % kHierarchyWidth, glm::vec3(std::numeric_limits<float>::infinity()));
+    node.max.setLane(i % kHierarchyWidth, glm::vec3(-std::numeric_limits<float>::infinity()));
+    node.children[i % kHierarchyWidth] = {};
+  }
+}
+
+NearestTriangle MeshDistance::nearest(glm::dvec3 point, double maxDistance, std::uint32_t startLeaf) const {
+  const std::span root(&hierarchy_->nodes()[hierarchy_->root().index()], 1);
+#if defined(__x86_64__)
+  if (activeSimd() == SimdLevel::Avx2) return avx2::walkToNearest(*hierarchy_, root, point, maxDistance, startLeaf);
+#endif
+  return portable::walkToNearest(*hierarchy_, root, point, maxDistance, startLeaf);
+}
+
+NearestTriangle MeshDistance::nearest(const LocalRoots& roots, glm::dvec3 point, double maxDistance,
+                                      std::uint32_t startLeaf) const {
+  const std::span<const HierarchyNode> nodes = std::span(roots.nodes).first(roots.count);
+#if defined(__x86_64__)
+  if (activeSimd() == SimdLevel::Avx2) return avx2::walkToNearest(*hierarchy_, nodes, point, maxDistance, startLeaf);
+#endif
+  return portable::walkToNearest(*hierarchy_, nodes, point, maxDistance, startLeaf);
+}
+
+LocalRoots MeshDistance::rootsAround(const CubeAround& cube) const {
+  LocalRoots roots;
+#if defined(__x86_64__)
+  if (activeSimd() == SimdLevel::Avx2) {
+    avx2::walkToRoots(*hierarchy_, cube, roots);
+    return roots;
+  }
+#endif
+  portable::walkToRoots(*hierarchy_, cube, roots);
+  return roots;
+}
+
+std::size_t MeshDistance::collect(const CubeAround& cube, std::span<std::uint32_t> found) const {
+#if defined(__x86_64__)
+  if (activeSimd() == SimdLevel::Avx2) return avx2::walkAround(*hierarchy_, cube, found);
+#endif
+  return portable::walkAround(*hierarchy_, cube, found);
+}
+
 ClosestTriangle MeshDistance::closest(glm::dvec3 point, double maxDistance, std::uint32_t hint) const {
-  ClosestSearch search(*hierarchy_, point, maxDistance);
-  if (hint != kNoTriangle) search.measure(hint);
-  return search.run();
+  double limit = maxDistance;
+  if (hint != kNoTriangle) limit = std::min(limit, distanceToTriangle(point, hierarchy_->soup().corners(hint)));
+  const NearestTriangle found = nearest(point, limit);
+  if (found.triangle == kNoTriangle) return {};
+  return {found.distance, found.triangle, closestPointOnTriangle(point, hierarchy_->soup().corners(found.triangle))};
 }
 
 } // namespace brickfield

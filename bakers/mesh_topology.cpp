@@ -1,10 +1,11 @@
-// Edges are sorted, not hashed: the same order on any number of threads.
+// Edges are sorted, not hashed: the same order on any number of threads. Triangles that coincide share their edges.
 #include "bakers/mesh_topology.h"
 
 #include <algorithm>
 #include <span>
 
-#include <tbb/parallel_sort.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "bakers/disjoint_sets.h"
 
@@ -12,30 +13,45 @@ namespace brickfield {
 
 namespace {
 
+constexpr std::size_t kVerticesAtATime = 4096;
+
 struct DirectedEdge {
-  std::uint64_t key = 0;      ///< smaller vertex, larger vertex
-  std::uint32_t triangle = 0; ///< slivers follow the triangles
-  std::uint8_t corner = 0;    ///< edge from this corner to the next
-  bool forward = false;       ///< from the smaller to the larger vertex
-  bool operator<(const DirectedEdge& other) const {
-    if (key != other.key) return key < other.key;
-    return triangle != other.triangle ? triangle < other.triangle : corner < other.corner;
-  }
+  std::uint32_t small = 0, large = 0; ///< its vertices
+  std::uint32_t triangle = 0;         ///< slivers follow the triangles
+  std::uint32_t opposite = 0;         ///< the triangle's third vertex
+  std::uint8_t corner = 0;            ///< edge from this corner to the next
+  bool forward = false;               ///< from the smaller to the larger vertex
 };
 
+/// By smaller, then larger vertex, then triangle, then corner: counted into a bucket for each smaller vertex, in the
+/// order of the triangles, and then each bucket, of some six edges, sorted by the larger one.
 std::vector<DirectedEdge> sortedEdges(const TriangleSoup& soup) {
-  std::vector<DirectedEdge> edges;
-  edges.reserve(3 * (soup.triangles.size() + soup.slivers.size()));
-  const auto addTriangle = [&](const TriangleVertices& vertices, std::size_t number) {
-    for (std::uint8_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = vertices[k], to = vertices[(k + 1u) % 3u];
-      const std::uint64_t key = (std::uint64_t{std::min(from, to)} << 32) | std::max(from, to);
-      edges.push_back({key, static_cast<std::uint32_t>(number), k, from < to});
-    }
+  std::vector<std::uint32_t> firstOf(soup.positions.size() + 1, 0);
+  const auto forEach = [&](const auto& visit) {
+    const auto visitAll = [&](const std::vector<TriangleVertices>& triangles, std::size_t firstNumber) {
+      for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (std::uint8_t k = 0; k < 3; ++k) {
+          const std::uint32_t from = triangles[t][k], to = triangles[t][(k + 1u) % 3u];
+          visit(DirectedEdge{std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(firstNumber + t),
+                             triangles[t][(k + 2u) % 3u], k, from < to});
+        }
+    };
+    visitAll(soup.triangles, 0);
+    visitAll(soup.slivers, soup.triangles.size());
   };
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t) addTriangle(soup.triangles[t], t);
-  for (std::size_t t = 0; t < soup.slivers.size(); ++t) addTriangle(soup.slivers[t], soup.triangles.size() + t);
-  tbb::parallel_sort(edges.begin(), edges.end());
+  forEach([&](const DirectedEdge& edge) { ++firstOf[edge.small + 1]; });
+  for (std::size_t v = 1; v < firstOf.size(); ++v) firstOf[v] += firstOf[v - 1];
+  std::vector<DirectedEdge> edges(firstOf.back());
+  std::vector<std::uint32_t> place(firstOf.begin(), firstOf.end() - 1);
+  forEach([&](const DirectedEdge& edge) { edges[place[edge.small]++] = edge; });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, place.size(), kVerticesAtATime), [&](const auto& block) {
+    for (std::size_t v = block.begin(); v < block.end(); ++v)
+      std::sort(edges.begin() + firstOf[v], edges.begin() + firstOf[v + 1],
+                [](const DirectedEdge& a, const DirectedEdge& b) {
+                  if (a.large != b.large) return a.large < b.large;
+                  return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner;
+                });
+  });
   return edges;
 }
 
@@ -43,7 +59,8 @@ std::vector<DirectedEdge> sortedEdges(const TriangleSoup& soup) {
 template <typename Visit>
 void forEachEdge(const std::vector<DirectedEdge>& edges, Visit visit) {
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-    while (end < edges.size() && edges[end].key == edges[begin].key) ++end;
+    while (end < edges.size() && edges[end].small == edges[begin].small && edges[end].large == edges[begin].large)
+      ++end;
     visit(std::span(edges).subspan(begin, end - begin));
   }
 }
@@ -52,6 +69,17 @@ int netDirection(std::span<const DirectedEdge> uses) {
   int net = 0;
   for (const DirectedEdge& use : uses) net += use.forward ? 1 : -1;
   return net;
+}
+
+/// Adds the triangles on an edge that may coincide with another one: all of them where there are many.
+void addTwins(std::span<const DirectedEdge> uses, std::size_t triangleCount, std::vector<std::uint32_t>& twins) {
+  constexpr std::size_t kMany = 16;
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    bool mayCoincide = uses.size() > kMany;
+    for (std::size_t j = 0; j < uses.size() && !mayCoincide; ++j)
+      mayCoincide = j != i && uses[j].opposite == uses[i].opposite;
+    if (mayCoincide && uses[i].triangle < triangleCount) twins.push_back(uses[i].triangle);
+  }
 }
 
 struct SortedTriangle {
@@ -71,10 +99,13 @@ SortedTriangle sortTriangle(TriangleVertices v, std::uint32_t triangle) {
   return sorted;
 }
 
-void findFlatPairs(const TriangleSoup& soup, MeshTopology& topology) {
-  std::vector<SortedTriangle> sorted(soup.triangles.size());
-  for (std::uint32_t t = 0; t < sorted.size(); ++t) sorted[t] = sortTriangle(soup.triangles[t], t);
-  tbb::parallel_sort(sorted.begin(), sorted.end(), [](const SortedTriangle& a, const SortedTriangle& b) {
+/// twins  triangles that another one may coincide with, some of them more than once
+void findFlatPairs(const TriangleSoup& soup, std::vector<std::uint32_t> twins, MeshTopology& topology) {
+  std::sort(twins.begin(), twins.end());
+  twins.erase(std::unique(twins.begin(), twins.end()), twins.end());
+  std::vector<SortedTriangle> sorted;
+  for (const std::uint32_t t : twins) sorted.push_back(sortTriangle(soup.triangles[t], t));
+  std::sort(sorted.begin(), sorted.end(), [](const SortedTriangle& a, const SortedTriangle& b) {
     return a.vertices != b.vertices ? a.vertices < b.vertices : a.triangle < b.triangle;
   });
   for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
@@ -96,9 +127,10 @@ MeshTopology analyseTopology(const TriangleSoup& soup) {
   const std::size_t count = soup.triangles.size();
   const std::vector<DirectedEdge> edges = sortedEdges(soup);
   DisjointSets components(count + soup.slivers.size());
-  std::vector<std::uint32_t> unbalanced, twisted;
+  std::vector<std::uint32_t> unbalanced, twisted, twins;
   forEachEdge(edges, [&](std::span<const DirectedEdge> uses) {
     for (const DirectedEdge& use : uses) components.unite(uses.front().triangle, use.triangle);
+    addTwins(uses, count, twins);
     const int net = netDirection(uses);
     topology.openEdges += uses.size() == 1;
     topology.nonManifoldEdges += uses.size() > 2 || (uses.size() == 2 && net != 0);
@@ -120,7 +152,7 @@ MeshTopology analyseTopology(const TriangleSoup& soup) {
   }
   topology.isFlatPair.assign(count, false);
   topology.isFlatPairCopy.assign(count, false);
-  findFlatPairs(soup, topology);
+  findFlatPairs(soup, std::move(twins), topology);
   return topology;
 }
 

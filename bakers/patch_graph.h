@@ -58,12 +58,6 @@ private:
   std::vector<std::uint32_t> first_; ///< a brick: number of its first patch
 };
 
-/// Position in the brick of sample number `index`.
-inline glm::ivec3 sampleOfIndex(std::size_t index) {
-  const auto i = static_cast<int>(index);
-  return {i % kBrickSamples, i / kBrickSamples % kBrickSamples, i / (kBrickSamples * kBrickSamples)};
-}
-
 template <typename Visit>
 void PatchGraph::forEachMeeting(Visit visit) const {
   for (std::size_t cell = 0; cell < level_->grid.cellCount(); ++cell)

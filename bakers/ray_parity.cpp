@@ -44,7 +44,7 @@ bool isOddAlong(const MeshHierarchy& hierarchy, glm::dvec3 point, RayAxes axes) 
     const HierarchyChild top = stack[--size];
     if (top.isLeaf()) {
       const HierarchyLeaf& leaf = hierarchy.leaves()[top.index()];
-      for (std::size_t i = 0; i < leaf.count; ++i) odd ^= isCrossed(hierarchy.soup(), leaf.triangles[i], point, axes);
+      for (std::size_t i = 0; i < leaf.count(); ++i) odd ^= isCrossed(hierarchy.soup(), leaf.triangles[i], point, axes);
       continue;
     }
     const HierarchyNode& node = hierarchy.nodes()[top.index()];

@@ -51,7 +51,7 @@ SheetSlabs::SheetSlabs(const TriangleSoup& soup, const MeshHierarchy& sheets, co
   const MeshDistance distance(sheets);
   std::vector<std::uint32_t> behind;
   for (const HierarchyLeaf& leaf : sheets.leaves())
-    for (std::uint32_t i = 0; i < leaf.count; ++i)
+    for (std::uint32_t i = 0; i < leaf.count(); ++i)
       if (const std::uint32_t t = leaf.triangles[i];
           request.mayLieBehind[t] && !isThin(t, distance, depthOf(request.halfThickness)))
         behind.push_back(t);

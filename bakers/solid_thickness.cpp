@@ -14,11 +14,13 @@ constexpr int kHalvings = 5;         // of 2^7 on a logarithmic scale: to a fact
 
 } // namespace
 
-std::optional<double> SolidThickness::behind(std::uint32_t triangle, glm::dvec3 point, double limit) const {
+std::optional<double> SolidThickness::behind(std::uint32_t triangle, glm::dvec3 point, double limit,
+                                             const KnownSides& known) const {
   const auto [a, b, c] = soup_->corners(triangle);
   const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
   const double probe = kProbe * limit;
-  const bool before = inside_->isInside(point + probe * normal), after = inside_->isInside(point - probe * normal);
+  const bool before = known.before ? *known.before : inside_->isInside(point + probe * normal);
+  const bool after = known.behind ? *known.behind : inside_->isInside(point - probe * normal);
   if (before && after) return std::nullopt;
   if (!before && !after) return probe;
   const glm::dvec3 inwards = after ? -normal : normal;

@@ -12,6 +12,11 @@
 
 namespace brickfield {
 
+/// Whether the sides of a triangle are inside, where that is known.
+struct KnownSides {
+  std::optional<bool> before, behind;
+};
+
 class SolidThickness {
 public:
   /// solid   of all solid triangles
@@ -27,10 +32,12 @@ public:
 
   /// point     on the triangle, which is closed
   /// limit     soup space; infinite is returned for more, and where a gap less than half the limit wide hides the end
+  /// known     signs close to the triangle that need not be asked for
   /// returns   never over, and less than a sixth under, down to limit / 128; nothing where both sides are inside
   /// cost      two signs and a distance, and up to seven signs where something is near
   /// proved by tests/bake/bakers/thin_parts_test.cpp
-  std::optional<double> behind(std::uint32_t triangle, glm::dvec3 point, double limit) const;
+  std::optional<double> behind(std::uint32_t triangle, glm::dvec3 point, double limit,
+                               const KnownSides& known = {}) const;
 
   const TriangleSoup& soup() const { return *soup_; }
 

@@ -24,6 +24,9 @@ struct Place {
   glm::dvec3 point{0.0}; ///< soup space
 };
 
+constexpr double kOverFace = 0.9;              // cosine
+constexpr double kOffSurfaceVoxels = 1.0 / 64; // a sample on the surface has no side
+
 /// Triangles that bound closed solids, with the sums of their areas.
 class ClosedSurface {
 public:
@@ -54,14 +57,22 @@ private:
   std::vector<double> areasUpTo_;
 };
 
-double growthVoxels(const SolidThickness& thickness, std::uint32_t triangle, glm::dvec3 sample, double voxelSize) {
+double growthVoxels(const SolidThickness& thickness, std::uint32_t triangle, glm::dvec3 sample, bool isInside,
+                    double voxelSize) {
   const auto corners = thickness.soup().corners(triangle);
   const glm::dvec3 on = closestPointOnTriangle(sample, corners).point;
   const glm::dvec3 toCentroid = (corners[0] + corners[1] + corners[2]) / 3.0 - on;
   const double far = glm::length(toCentroid), step = kOffEdgeVoxels * voxelSize;
   const glm::dvec3 place = on + (far > step ? step / far : 1.0) * toCentroid;
   const double limit = kSmoothSolidVoxels * voxelSize;
-  const double behind = thickness.behind(triangle, place, limit).value_or(limit);
+  // Where the sample stands over the triangle's face rather than beyond its edge, its side is the face's.
+  const glm::dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const double height = glm::dot(sample - on, normal);
+  const double over = std::max(kOverFace * glm::length(sample - on), kOffSurfaceVoxels * voxelSize);
+  KnownSides known;
+  if (height > over) known.before = isInside;
+  if (height < -over) known.behind = isInside;
+  const double behind = thickness.behind(triangle, place, limit, known).value_or(limit);
   return std::clamp(0.5 * (limit - behind) / voxelSize, 0.0, kMostGrowthVoxels);
 }
 
@@ -91,7 +102,7 @@ ThinParts findThinParts(const SolidThickness& thickness, double voxelSize, int r
 }
 
 std::vector<float> growThinSolids(const SolidThickness& thickness, const SamplingRequest& request,
-                                  const LevelSamples& level) {
+                                  const LevelSamples& level, const std::vector<std::uint8_t>& sampleInside) {
   std::vector<float> growth(level.solidDistances.size());
   tbb::parallel_for(std::size_t{0}, level.brickCount(), [&](std::size_t b) {
     request.done(0);
@@ -101,7 +112,8 @@ std::vector<float> growThinSolids(const SolidThickness& thickness, const Samplin
       const std::uint32_t triangle = level.solidTriangles[slot];
       if (level.solidDistances[slot] > kGrownVoxels || !thickness.isClosed(triangle)) continue;
       const glm::dvec3 sample = level.grid.sample(brick, sampleOfIndex(i));
-      growth[slot] = static_cast<float>(growthVoxels(thickness, triangle, sample, level.grid.voxelSize));
+      growth[slot] =
+          static_cast<float>(growthVoxels(thickness, triangle, sample, sampleInside[slot] != 0, level.grid.voxelSize));
     }
   });
   return growth;

@@ -36,6 +36,6 @@ ThinParts findThinParts(const SolidThickness& thickness, double voxelSize, int r
 /// cost      a thickness for each sample within three voxels of closed solids; all threads
 /// proved by tests/bake/bakers/thin_parts_test.cpp
 std::vector<float> growThinSolids(const SolidThickness& thickness, const SamplingRequest& request,
-                                  const LevelSamples& level);
+                                  const LevelSamples& level, const std::vector<std::uint8_t>& sampleInside);
 
 } // namespace brickfield

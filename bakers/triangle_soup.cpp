@@ -14,6 +14,7 @@ namespace brickfield {
 
 namespace {
 
+constexpr std::uint32_t kNotWelded = ~0u;
 constexpr double kLeastHeightOverEdge = 1e-12; // four decimal digits above the rounding of a double cross product
 
 /// Open-addressed table of positions: far faster than a node-based map for the millions of vertices of a scan.
@@ -70,9 +71,14 @@ bool hasArea(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
 void gatherPrimitive(TriangleSoup& soup, PositionWelder& welder, const BakeInput& input, std::size_t primitiveIndex) {
   const Primitive& primitive = *input.primitives[primitiveIndex];
   const std::vector<glm::vec3>& positions = input.positionsObject[primitiveIndex];
+  std::vector<std::uint32_t> weldedOf(positions.size(), kNotWelded); // in the order of their first use
+  const auto weld = [&](std::uint32_t vertex) {
+    if (weldedOf[vertex] == kNotWelded) weldedOf[vertex] = welder.indexOf(positions[vertex]);
+    return weldedOf[vertex];
+  };
   for (std::size_t t = 0; t < primitive.indices.size() / 3; ++t) {
     TriangleVertices vertices;
-    for (std::size_t k = 0; k < 3; ++k) vertices[k] = welder.indexOf(positions[primitive.indices[3 * t + k]]);
+    for (std::size_t k = 0; k < 3; ++k) vertices[k] = weld(primitive.indices[3 * t + k]);
     const std::array<glm::vec3, 3> corners = {welder.points()[vertices[0]], welder.points()[vertices[1]],
                                               welder.points()[vertices[2]]};
     if (!hasArea(corners[0], corners[1], corners[2])) {
@@ -99,6 +105,11 @@ TriangleSoup gatherTriangles(const BakeInput& input) {
     vertexCount += input.positionsObject[i].size();
   }
   TriangleSoup soup;
+  std::size_t triangleCount = 0;
+  for (const Primitive* primitive : input.primitives) triangleCount += primitive->indices.size() / 3;
+  soup.triangles.reserve(triangleCount);
+  soup.primitiveIndices.reserve(triangleCount);
+  soup.triangleIndices.reserve(triangleCount);
   PositionWelder welder(vertexCount);
   for (std::size_t i = 0; i < input.primitives.size(); ++i) gatherPrimitive(soup, welder, input, i);
   if (soup.triangles.empty())

@@ -9,15 +9,22 @@
 #include "bakers/winding_number.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <numbers>
+
+#include <tbb/parallel_for.h>
+
+#include "bakers/simd_level.h"
+
+#pragma GCC diagnostic ignored "-Wpsabi" // vectors of 32 bytes are passed within this file alone, and inlined
 
 namespace brickfield {
 
 namespace {
 
-// A cluster is far beyond this many radii of the ball around its box: what Barill et al. advise for three terms.
-constexpr float kFarRadii = 2.0f;
+constexpr int kParallelDepth = 2; // nodes above it gather their children on all threads
 constexpr float kNowhere = 1e12f; // its cube is finite in float: an absent cluster's zeros stay zeros
 
 // The ten products of three coordinates of r.
@@ -31,26 +38,17 @@ std::size_t monomialOf(glm::length_t i, glm::length_t j, glm::length_t k) {
   return static_cast<std::size_t>(std::find(kMonomials.begin(), kMonomials.end(), sorted) - kMonomials.begin());
 }
 
-/// Eight solid angles, or rather their tangents' two sides: tan(angle / 2) = numerator / denominator.
-float solidAngles(const HierarchyLeaf& leaf, glm::vec3 point) {
-  Float8 numerators, denominators;
-  const Vector4 p = broadcast(point);
-  for (std::size_t h = 0; h < 2; ++h) {
-    const Vector4 ab = leaf.ab.half(h), ac = leaf.ac.half(h), normal = leaf.normal.half(h);
-    const Vector4 a = leaf.a.half(h) - p;
-    const Vector4 b{a.x + ab.x, a.y + ab.y, a.z + ab.z}, c{a.x + ac.x, a.y + ac.y, a.z + ac.z};
-    Float4 lengthA = dot(a, a), lengthB = dot(b, b), lengthC = dot(c, c);
-    for (std::size_t i = 0; i < 4; ++i)
-      lengthA[i] = std::sqrt(lengthA[i]), lengthB[i] = std::sqrt(lengthB[i]), lengthC[i] = std::sqrt(lengthC[i]);
-    // The triple product a.(b x c) as height times area: close to the plane it keeps its sign that way.
-    numerators.halves[h] = dot(a, normal) * dot(cross(ab, ac), normal);
-    denominators.halves[h] =
-        lengthA * lengthB * lengthC + dot(a, b) * lengthC + dot(b, c) * lengthA + dot(c, a) * lengthB;
-  }
-  float sum = 0;
-  for (std::size_t i = 0; i < leaf.count; ++i) sum += std::atan2(numerators.lane(i), denominators.lane(i));
-  return 2.0f * sum;
+namespace portable {
+#include "bakers/winding_walk.inl"
 }
+#if defined(__x86_64__)
+#pragma GCC push_options
+#pragma GCC target("avx2")
+namespace avx2 {
+#include "bakers/winding_walk.inl"
+}
+#pragma GCC pop_options
+#endif
 
 } // namespace
 
@@ -98,39 +96,47 @@ struct WindingNumber::Cluster {
   }
 };
 
-WindingNumber::WindingNumber(const MeshHierarchy& hierarchy) : hierarchy_(&hierarchy) {
-  dipoles_.resize(hierarchy.nodes().size());
-  gather(hierarchy.root());
+WindingNumber::WindingNumber(const MeshHierarchy& hierarchy, float farRadii)
+    : hierarchy_(&hierarchy), farRadii_(farRadii) {
+  moments_.resize(hierarchy.nodes().size());
+  gather(hierarchy.root(), 0);
 }
 
-WindingNumber::Cluster WindingNumber::gather(HierarchyChild child) {
+WindingNumber::Cluster WindingNumber::gather(HierarchyChild child, int depth) {
   Cluster sum;
   if (child.isLeaf()) {
     const HierarchyLeaf& leaf = hierarchy_->leaves()[child.index()];
-    for (std::size_t i = 0; i < leaf.count; ++i) sum.add(hierarchy_->soup().corners(leaf.triangles[i]));
+    for (std::size_t i = 0; i < leaf.count(); ++i) sum.add(hierarchy_->soup().corners(leaf.triangles[i]));
     return sum;
   }
   const HierarchyNode& node = hierarchy_->nodes()[child.index()];
+  std::array<Cluster, kHierarchyWidth> parts;
+  const auto gatherPart = [&](std::size_t i) {
+    if (!node.children[i].isNone()) parts[i] = gather(node.children[i], depth + 1);
+  };
+  if (depth < kParallelDepth)
+    tbb::parallel_for(std::size_t{0}, kHierarchyWidth, gatherPart);
+  else
+    for (std::size_t i = 0; i < kHierarchyWidth; ++i) gatherPart(i);
   for (std::size_t i = 0; i < kHierarchyWidth; ++i) {
-    dipoles_[child.index()].center.setLane(i, glm::vec3(kNowhere));
+    moments_[child.index()].center.setLane(i, glm::vec3(kNowhere));
     if (node.children[i].isNone()) continue;
-    Cluster part = gather(node.children[i]);
-    sum.add(part);
-    part.centre();
-    setLane(dipoles_[child.index()], i, part);
+    sum.add(parts[i]);
+    parts[i].centre();
+    setLane(moments_[child.index()], i, parts[i]);
   }
   return sum;
 }
 
-void WindingNumber::setLane(Dipoles& dipoles, std::size_t lane, const Cluster& cluster) {
+void WindingNumber::setLane(WindingMoments& moments, std::size_t lane, const Cluster& cluster) {
   const glm::vec3 center(cluster.weightedCentroid);
   const glm::vec3 toCorner = glm::max(cluster.bounds.max - center, center - cluster.bounds.min);
-  dipoles.center.setLane(lane, center);
-  dipoles.areaNormal.setLane(lane, glm::vec3(cluster.areaNormal));
-  dipoles.radiusSquared.setLane(lane, glm::dot(toCorner, toCorner));
+  moments.center.setLane(lane, center);
+  moments.areaNormal.setLane(lane, glm::vec3(cluster.areaNormal));
+  moments.radiusSquared.setLane(lane, glm::dot(toCorner, toCorner));
   const glm::dmat3& m = cluster.first;
-  dipoles.spread.setLane(lane, {m[0][0], m[1][1], m[2][2]});
-  dipoles.shear.setLane(lane, {m[0][1] + m[1][0], m[1][2] + m[2][1], m[2][0] + m[0][2]});
+  moments.spread.setLane(lane, {m[0][0], m[1][1], m[2][2]});
+  moments.shear.setLane(lane, {m[0][1] + m[1][0], m[1][2] + m[2][1], m[2][0] + m[0][2]});
   std::array<double, kMonomials.size()> cubics{};
   glm::dvec3 trace(0.0);
   for (glm::length_t i = 0; i < 3; ++i)
@@ -140,58 +146,18 @@ void WindingNumber::setLane(Dipoles& dipoles, std::size_t lane, const Cluster& c
       trace[j] += 2.0 * cluster.second[static_cast<std::size_t>(i)][i][j];
       trace[i] += cluster.second[static_cast<std::size_t>(i)][j][j];
     }
-  for (std::size_t i = 0; i < cubics.size(); ++i) dipoles.cubics[i].setLane(lane, static_cast<float>(cubics[i]));
-  dipoles.cubicTrace.setLane(lane, glm::vec3(trace));
-}
-
-Float4 WindingNumber::farSolidAngles(const Dipoles& dipoles, std::size_t half, const Vector4& r, Float4 rSquared) {
-  const Vector4 spread = dipoles.spread.half(half), shear = dipoles.shear.half(half);
-  const Float4 xx = r.x * r.x, yy = r.y * r.y, zz = r.z * r.z;
-  const Float4 quadratic = dot(spread, {xx, yy, zz}) + dot(shear, {r.x * r.y, r.y * r.z, r.z * r.x});
-  const auto c = [&](std::size_t i) { return dipoles.cubics[i].halves[half]; }; // in the order of kMonomials
-  const Float4 cubic = r.x * (c(0) * xx + c(3) * yy + c(5) * zz + r.y * (c(1) * r.x + c(4) * r.z) + c(2) * r.x * r.z) +
-                       r.y * (c(6) * yy + c(8) * zz + c(7) * r.y * r.z) + c(9) * zz * r.z;
-  const Float4 oneOverRSquared = broadcast(1.0f) / rSquared;
-  Float4 oneOverR;
-  for (std::size_t i = 0; i < 4; ++i) oneOverR[i] = std::sqrt(oneOverRSquared[i]);
-  const Float4 third =
-      broadcast(7.5f) * cubic * oneOverRSquared - broadcast(1.5f) * dot(dipoles.cubicTrace.half(half), r);
-  const Float4 second = spread.x + spread.y + spread.z + (third - broadcast(3.0f) * quadratic) * oneOverRSquared;
-  return (dot(dipoles.areaNormal.half(half), r) + second) * (oneOverRSquared * oneOverR);
+  for (std::size_t i = 0; i < cubics.size(); ++i) moments.cubics[i].setLane(lane, static_cast<float>(cubics[i]));
+  moments.cubicTrace.setLane(lane, glm::vec3(trace));
 }
 
 float WindingNumber::at(glm::dvec3 point) const {
   const glm::vec3 p(point);
-  const Vector4 p4 = broadcast(p);
-  std::array<HierarchyChild, 64 * kHierarchyWidth> stack;
-  std::size_t size = 0;
-  stack[size++] = hierarchy_->root();
-  double sum = 0;
-  while (size > 0) {
-    const HierarchyChild top = stack[--size];
-    if (top.isLeaf()) {
-      sum += static_cast<double>(solidAngles(hierarchy_->leaves()[top.index()], p));
-      continue;
-    }
-    const Dipoles& dipoles = dipoles_[top.index()];
-    const HierarchyNode& node = hierarchy_->nodes()[top.index()];
-    for (std::size_t h = 0; h < 2; ++h) {
-      const Vector4 r = dipoles.center.half(h) - p4;
-      const Float4 rSquared = dot(r, r);
-      const Float4 nearSquared = broadcast(kFarRadii * kFarRadii) * dipoles.radiusSquared.halves[h];
-      bool anyFar = false;
-      for (std::size_t i = 0; i < 4; ++i) anyFar |= rSquared[i] > nearSquared[i];
-      const Float4 far = anyFar ? farSolidAngles(dipoles, h, r, rSquared) : broadcast(0.0f);
-      for (std::size_t i = 0; i < 4; ++i) {
-        const HierarchyChild child = node.children[4 * h + i];
-        if (rSquared[i] > nearSquared[i])
-          sum += static_cast<double>(far[i]);
-        else if (!child.isNone())
-          stack[size++] = child;
-      }
-    }
-  }
-  return static_cast<float>(sum / (4.0 * std::numbers::pi));
+  const double whole = 4.0 * std::numbers::pi;
+#if defined(__x86_64__)
+  if (activeSimd() == SimdLevel::Avx2)
+    return static_cast<float>(avx2::solidAngle(*hierarchy_, moments_.data(), p, farRadii_) / whole);
+#endif
+  return static_cast<float>(portable::solidAngle(*hierarchy_, moments_.data(), p, farRadii_) / whole);
 }
 
 } // namespace brickfield

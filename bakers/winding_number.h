@@ -7,34 +7,42 @@
 
 namespace brickfield {
 
+/// What stands for the children of a node from afar: moments of their area vectors n about centres, d the offset from
+/// them. Absent children have none and are infinitely far.
+struct WindingMoments {
+  Vector8 center;                ///< mean of the centroids, weighted by area
+  Vector8 areaNormal;            ///< sum of n
+  Vector8 spread, shear;         ///< sum of n d': diagonal; xy + yx, yz + zy, zx + xz
+  std::array<Float8, 10> cubics; ///< sum of n d d', folded onto the monomials of winding_number.cpp
+  Vector8 cubicTrace;            ///< and its contractions
+  Float8 radiusSquared;          ///< of the ball around `center` that holds the child's box
+};
+
 class WindingNumber {
 public:
+  /// Beyond so many radii of the ball around its box a cluster counts as far.
+  static constexpr float kFarRadii = 2.0f; ///< what Barill et al. advise for three terms
+  /// For closed surfaces, whose number is whole: an error of a tenth leaves it clear.
+  static constexpr float kFarRadiiOfWhole = 1.25f;
+
   /// hierarchy must outlive this
-  explicit WindingNumber(const MeshHierarchy& hierarchy);
+  explicit WindingNumber(const MeshHierarchy& hierarchy, float farRadii = kFarRadii);
 
   /// point    soup space
-  /// returns  within 0.01 of the exact number
+  /// returns  within 0.01 of the exact number; within 0.1 with kFarRadiiOfWhole
   /// proved by tests/bake/bakers/winding_number_test.cpp
   float at(glm::dvec3 point) const;
 
+  std::size_t bytes() const { return moments_.size() * sizeof(WindingMoments); } ///< of the moments
+
 private:
-  /// What stands for a child from afar: moments of its area vectors n about a centre, d the offset from it. Absent
-  /// children have none and are infinitely far.
-  struct Dipoles {
-    Vector8 center;                ///< mean of the centroids, weighted by area
-    Vector8 areaNormal;            ///< sum of n
-    Vector8 spread, shear;         ///< sum of n d': diagonal; xy + yx, yz + zy, zx + xz
-    std::array<Float8, 10> cubics; ///< sum of n d d', folded onto the monomials of winding_number.cpp
-    Vector8 cubicTrace;            ///< and its contractions
-    Float8 radiusSquared;          ///< of the ball around `center` that holds the child's box
-  };
   struct Cluster;
-  Cluster gather(HierarchyChild child);
-  static void setLane(Dipoles& dipoles, std::size_t lane, const Cluster& cluster);
-  static Float4 farSolidAngles(const Dipoles& dipoles, std::size_t half, const Vector4& r, Float4 rSquared);
+  Cluster gather(HierarchyChild child, int depth);
+  static void setLane(WindingMoments& moments, std::size_t lane, const Cluster& cluster);
 
   const MeshHierarchy* hierarchy_;
-  std::vector<Dipoles> dipoles_; ///< a node each
+  float farRadii_;
+  std::vector<WindingMoments> moments_; ///< a node each
 };
 
 } // namespace brickfield

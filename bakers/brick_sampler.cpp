@@ -1,0 +1,107 @@
+// Walks start with a bound: a sample is at most a voxel farther from the surface than the one beside it. Walks end at
+// the range: what lies beyond is clamped anyway, and the flood of signs only asks whether two neighbours are farther
+// from the surface than from each other.
+#include "bakers/brick_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bakers/block_distance.h"
+
+namespace brickfield {
+
+namespace {
+
+constexpr std::size_t kSamples = kBrickSampleCount;
+constexpr float kUnknown = std::numeric_limits<float>::infinity();
+constexpr float kOnSurfaceVoxels = 2e-6f;  // above the error of a block
+constexpr float kBoundSlackVoxels = 1e-4f; // over the rounding of distances in voxels to float
+
+bool isWanted(const SampleRows& wanted, std::size_t i) { return wanted[i / kBrickSamples] >> (i % kBrickSamples) & 1; }
+
+/// Samples on the surface are at zero whichever way the triangle turns and whatever was rounded.
+float onOrOff(float voxels) { return voxels < kOnSurfaceVoxels ? 0.0f : voxels; }
+
+/// Least of the distances, in voxels, of the samples before one along each axis.
+float leastBefore(const std::array<float, kSamples>& found, int x, int y, int z) {
+  const std::size_t i = sampleIndex({x, y, z});
+  float least = kUnknown;
+  if (x > 0) least = std::min(least, found[i - 1]);
+  if (y > 0) least = std::min(least, found[i - kBrickSamples]);
+  if (z > 0) least = std::min(least, found[i - kBrickSamples * kBrickSamples]);
+  return least;
+}
+
+} // namespace
+
+void SurfaceSampler::run(glm::ivec3 brick, const SampleRows& wanted, float* distances, std::uint32_t* triangles) const {
+  if (isCapped && runBlock(brick, wanted, distances, triangles)) return;
+  runWalks(brick, wanted, distances, triangles);
+}
+
+double SurfaceSampler::capVoxels() const {
+  return kSampledRangeVoxels + (slabs ? SheetSlabs::depthOf(halfThickness) / grid.voxelSize : 0.0);
+}
+
+/// Voxels of what was found, or the range.
+float SurfaceSampler::finish(glm::dvec3 point, NearestTriangle nearest) const {
+  if (nearest.triangle == kNoTriangle) return static_cast<float>(kSampledRangeVoxels);
+  if (!slabs) return onOrOff(static_cast<float>(nearest.distance / grid.voxelSize));
+  const PointOnTriangle on = closestPointOnTriangle(point, surface.hierarchy().soup().corners(nearest.triangle));
+  const ClosestTriangle closest{glm::length(point - on.point), nearest.triangle, on};
+  return static_cast<float>(slabs->distance(point, closest, halfThickness) / grid.voxelSize);
+}
+
+/// returns false where there are too many triangles, or none.
+bool SurfaceSampler::runBlock(glm::ivec3 brick, const SampleRows& wanted, float* distances,
+                              std::uint32_t* triangles) const {
+  std::array<std::uint32_t, kMostBlockTriangles> near;
+  const double halfEdge = 0.5 * kBrickCells * grid.voxelSize;
+  const std::size_t count = surface.collect({grid.brickCenter(brick), halfEdge, capVoxels() * grid.voxelSize}, near);
+  if (count == 0 || count > near.size()) return false;
+  std::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count));
+  std::array<float, kSamples> found;
+  std::array<std::uint32_t, kSamples> nearest;
+  const std::span<const std::uint32_t> around(near.data(), count);
+  const SampleBlock block{grid.brickCenter(brick), grid.voxelSize};
+  blockDistances({&surface.hierarchy().soup(), around, block, wanted, static_cast<float>(capVoxels())}, found, nearest);
+  std::uint32_t last = near[0];
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    if (!isWanted(wanted, i)) continue;
+    if (nearest[i] != kNoTriangle) last = nearest[i];
+    triangles[i] = last;
+    if (slabs)
+      distances[i] = finish(grid.sample(brick, sampleOfIndex(i)), {0.0, nearest[i]});
+    else
+      distances[i] = nearest[i] != kNoTriangle ? onOrOff(found[i]) : static_cast<float>(kSampledRangeVoxels);
+  }
+  return true;
+}
+
+void SurfaceSampler::runWalks(glm::ivec3 brick, const SampleRows& wanted, float* distances,
+                              std::uint32_t* triangles) const {
+  const double cap = capVoxels() * grid.voxelSize;
+  const LocalRoots roots = surface.rootsAround({grid.brickCenter(brick), 0.5 * kBrickCells * grid.voxelSize, cap});
+  std::array<float, kSamples> found;
+  found.fill(kUnknown);
+  std::uint32_t last = kNoTriangle, start = kNoLeaf;
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    if (!isWanted(wanted, i)) continue;
+    const glm::ivec3 index = sampleOfIndex(i);
+    const glm::dvec3 point = grid.sample(brick, index);
+    // The very first is not capped, so that there always is a triangle to name.
+    double limit = isCapped && last != kNoTriangle ? cap : HUGE_VAL;
+    const float before = leastBefore(found, index.x, index.y, index.z);
+    limit = std::min(limit, static_cast<double>(before + 1.0f + kBoundSlackVoxels) * grid.voxelSize);
+    const NearestTriangle nearest =
+        limit <= cap ? surface.nearest(roots, point, limit, start) : surface.nearest(point, limit, start);
+    if (nearest.triangle != kNoTriangle) {
+      last = nearest.triangle, start = nearest.leaf;
+      found[i] = static_cast<float>(nearest.distance / grid.voxelSize);
+    }
+    triangles[i] = last;
+    distances[i] = finish(point, nearest);
+  }
+}
+
+} // namespace brickfield
