@@ -18,10 +18,11 @@ std::uint64_t parseMemory(const std::string& flag, const std::string& text) {
   if (text.ends_with("MiB")) exponent = 20;
   if (text.ends_with("GiB")) exponent = 30;
   if (exponent == 0) throw BadInput(flag, fmt::format("\"{}\"", text), "is no number of MiB or GiB, such as 1.5GiB");
-  constexpr double kMostMebibytes = 1 << 30;
-  const double most = std::ldexp(kMostMebibytes, 20 - exponent), least = std::ldexp(1.0, 20 - exponent);
-  return static_cast<std::uint64_t>(
-      std::ldexp(parseNumber(flag, text.substr(0, text.size() - 3), least, most), exponent));
+  const double number = parseNumber(flag, text.substr(0, text.size() - 3), -1e30, 1e30);
+  const double bytes = std::ldexp(number, exponent), least = std::ldexp(1.0, 20), most = std::ldexp(1.0, 50);
+  if (!(bytes >= least && bytes <= most))
+    throw BadInput(flag, fmt::format("\"{}\"", text), "is not from 1 MiB to a million GiB");
+  return static_cast<std::uint64_t>(bytes);
 }
 
 std::uint64_t defaultMemoryBytes() {
