@@ -7,8 +7,8 @@ layout(std430, binding = kFieldNodeBinding) buffer NodeBlock { uint nodes[]; };
 layout(std430, binding = kFieldTileBinding) readonly buffer TileBlock { FieldTile tiles[]; };
 layout(binding = 0, r16f) uniform writeonly image3D distances[MOST_CASCADES];
 
-// Of a node's word: the texel was evaluated at full resolution; is so near that others may ask it for its sign; and that
-// sign was turned after they had asked, to whom it remains what it was: they may ask while it is being turned.
+// Of a node's word: the texel was evaluated at full resolution; is so near that others may ask it for its sign; and
+// that sign was turned after they had asked, to whom it remains what it was: they may ask while it is being turned.
 const uint FINE = 0x40000000u, SIGNED = 0x20000000u, TURNED = 0x10000000u;
 const float SIGNED_TEXELS = 3.5; // rank
 // Farther away than this, candidates name a triangle that may lie up to a texel behind the nearest, and values lie
