@@ -14,7 +14,7 @@ const float SIGNED_TEXELS = 3.5; // rank
 // Farther away than this, candidates name a triangle that may lie up to a texel behind the nearest, and values lie
 // between those of coarse texels; a ray must not step through, so as much is taken off outside
 // (tests/oracle/world_field/exact_field_test.cpp).
-const float SURE_TEXELS = 4.0, FAR_SLACK_TEXELS = 1.7;
+const float SURE_TEXELS = 4.0, FAR_SLACK_TEXELS = 1.8;
 
 bool isBandAt(FieldCascade cascade, ivec3 lattice) {
   return isBandTile(tiles[cascade.buffers.z + tileSlot(cascade, lattice >> 3)]);
