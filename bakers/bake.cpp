@@ -15,6 +15,7 @@
 #include "bakers/level_baker.h"
 #include "bakers/mask_cut.h"
 #include "bakers/sheets.h"
+#include "bakers/sign_census.h"
 #include "bakers/stage_clock.h"
 #include "bakers/thin_parts.h"
 #include "core/error.h"
@@ -114,6 +115,11 @@ public:
     result.stats = stats_;
     result.soup = std::move(soup_);
     return result;
+  }
+
+  SignCensus census(const BrickField& field, std::uint64_t mostSamples) {
+    split();
+    return countSigns(soup_, surfaces_, inside_ ? &*inside_ : nullptr, field, mostSamples);
   }
 
 private:
@@ -350,6 +356,11 @@ BakeResult bakeField(const BakeInput& input, const BakeSettings& settings, const
 
 BandBake bakeBand(const BakeInput& input, const BakeSettings& settings, const Progress& progress) {
   return bakeOnThreads(input, settings, progress, [](FieldBaker& baker) { return baker.runBand(); });
+}
+
+SignCensus takeSignCensus(const BakeInput& input, const BakeSettings& settings, const BrickField& field,
+                          std::uint64_t mostSamples) {
+  return FieldBaker(input, settings, {}).census(field, mostSamples);
 }
 
 } // namespace brickfield

@@ -13,6 +13,7 @@
 #include "app/progress_bar.h"
 #include "app/scene_fields.h"
 #include "app/session.h"
+#include "bakers/sign_census.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "field/bricks_file.h"
@@ -34,6 +35,13 @@ struct BakeRequest {
   std::optional<float> thickness;
   int threads = 0;
 };
+
+nlohmann::json signsJson(const SignCensus& census) {
+  return {
+      {"samples", census.samples},    {"by_closed", census.byClosed},         {"by_open", census.byOpen},
+      {"by_sheets", census.bySheets}, {"sureness_mean", census.meanSureness}, {"sureness_least", census.leastSureness},
+      {"doubtful", census.doubtful},  {"overruled", census.overruled}};
+}
 
 nlohmann::json statsJson(const BakeRequest& request, const BakeSettings& settings, const BakeResult& result) {
   nlohmann::json levels = nlohmann::json::array();
@@ -79,17 +87,22 @@ int bake(const BakeRequest& request) {
   settings.thickness = request.thickness.value_or(settings.thickness);
   printWarnings(scene);
 
+  const BakeInput input = bakeInputOf(scene, instance, pose);
   BakeResult result;
   {
     ProgressBar bar;
-    result = bakeField(bakeInputOf(scene, instance, pose), settings, bar.progress());
+    result = bakeField(input, settings, bar.progress());
   }
   throwIfInterrupted();
   const std::string label = nodeLabel(scene, instance.node);
   if (const std::string warning = thinPartsWarning(label, result.field, settings); !warning.empty())
     printWarning(warning);
   writeBricksFile(request.output, result.field);
-  if (!request.stats.empty()) writeFile(request.stats, statsJson(request, settings, result).dump(2) + "\n");
+  if (!request.stats.empty()) {
+    nlohmann::json stats = statsJson(request, settings, result);
+    stats["signs"] = signsJson(takeSignCensus(input, settings, result.field));
+    writeFile(request.stats, stats.dump(2) + "\n");
+  }
   fmt::print("{}: {} triangles, {} bricks in {} levels, {:.2f} MiB, sign by {}, {:.2f} s\n", request.output.string(),
              result.stats.triangles, result.stats.bricks, result.field.levels.size(),
              static_cast<double>(result.stats.bytes) / (1024.0 * 1024.0), result.stats.sign, result.stats.seconds);
