@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
-#include "bakers/band_bake.h"
 #include "bakers/bake_memory.h"
+#include "bakers/band_bake.h"
 #include "bakers/level_baker.h"
 #include "bakers/mask_cut.h"
 #include "bakers/sheets.h"

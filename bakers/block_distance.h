@@ -33,7 +33,7 @@ struct BlockRequest {
 
 /// Results are voxels and triangles of the wanted samples; others are left with anything.
 ///
-/// proved by  tests/oracle/bakers/block_distance_test.cpp
+/// proved by  tests/bake/bakers/band_bake_test.cpp
 void blockDistances(const BlockRequest& request, std::span<float, kBrickSampleCount> distances,
                     std::span<std::uint32_t, kBrickSampleCount> nearest);
 

@@ -27,7 +27,7 @@ struct SurfaceSampler {
   /// wanted     other samples are left as they are
   /// distances  512 of the brick, in voxels; the range where beyond it and capped
   /// triangles  the closest ones, or some of the brick's where beyond the range
-  /// proved by  tests/oracle/bakers/brick_sampler_test.cpp
+  /// proved by  tests/bake/bakers/band_bake_test.cpp
   void run(glm::ivec3 brick, const SampleRows& wanted, float* distances, std::uint32_t* triangles) const;
 
 private:

@@ -10,6 +10,10 @@
 
 namespace brickfield {
 
+namespace {
+constexpr double kUncertainTurns = 0.015; // what clusters may be off by, and a half
+} // namespace
+
 SolidWinding::SolidWinding(const TriangleSoup& soup, const MeshTopology& topology,
                            const std::vector<std::uint32_t>& triangles, bool signless, const MeshHierarchy* whole)
     : signless_(signless) {
@@ -38,8 +42,12 @@ std::size_t SolidWinding::bytes() const {
 double SolidWinding::excess(glm::dvec3 point) const {
   const double closed = closed_ ? static_cast<double>(closed_->winding.at(point)) : 0.0;
   if (!open_) return std::abs(closed) >= 0.5 ? HUGE_VAL : -HUGE_VAL;
-  if (signless_) return std::abs(closed + static_cast<double>(open_->winding.at(point))) - 0.5;
-  return std::abs(closed) >= 0.5 ? HUGE_VAL : static_cast<double>(open_->winding.at(point)) - 0.5;
+  if (!signless_ && std::abs(closed) >= 0.5) return HUGE_VAL;
+  const auto excessOf = [&](double open) { return (signless_ ? std::abs(closed + open) : open) - 0.5; };
+  const double excess = excessOf(static_cast<double>(open_->winding.at(point)));
+  if (std::abs(excess) > kUncertainTurns) return excess;
+  const double whole = signless_ && closed_ ? static_cast<double>(closed_->winding.exactlyAt(point)) - closed : 0.0;
+  return excessOf(whole + static_cast<double>(open_->winding.exactlyAt(point)));
 }
 
 namespace {

@@ -58,7 +58,7 @@ class MeshHierarchy {
 public:
   /// triangles of the soup, at least one, ascending; boxes and corners in soup space
   /// cost      O(n log n), all threads; the same tree on any number of them
-  /// proved by tests/bake/bakers/mesh_hierarchy_test.cpp
+  /// proved by tests/bake/bakers/band_bake_test.cpp
   MeshHierarchy(const TriangleSoup& soup, const std::vector<std::uint32_t>& triangles);
 
   const TriangleSoup& soup() const { return *soup_; }

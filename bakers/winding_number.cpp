@@ -24,8 +24,9 @@ namespace brickfield {
 
 namespace {
 
-constexpr int kParallelDepth = 2; // nodes above it gather their children on all threads
-constexpr float kNowhere = 1e12f; // its cube is finite in float: an absent cluster's zeros stay zeros
+constexpr float kNothingIsFar = 1e15f; // its square is finite in float
+constexpr int kParallelDepth = 2;      // nodes above it gather their children on all threads
+constexpr float kNowhere = 1e12f;      // its cube is finite in float: an absent cluster's zeros stay zeros
 
 // The ten products of three coordinates of r.
 constexpr std::array<std::array<std::size_t, 3>, 10> kMonomials = {
@@ -150,14 +151,18 @@ void WindingNumber::setLane(WindingMoments& moments, std::size_t lane, const Clu
   moments.cubicTrace.setLane(lane, glm::vec3(trace));
 }
 
-float WindingNumber::at(glm::dvec3 point) const {
+float WindingNumber::at(glm::dvec3 point) const { return turns(point, farRadii_); }
+
+float WindingNumber::exactlyAt(glm::dvec3 point) const { return turns(point, kNothingIsFar); }
+
+float WindingNumber::turns(glm::dvec3 point, float farRadii) const {
   const glm::vec3 p(point);
   const double whole = 4.0 * std::numbers::pi;
 #if defined(__x86_64__)
   if (activeSimd() == SimdLevel::Avx2)
-    return static_cast<float>(avx2::solidAngle(*hierarchy_, moments_.data(), p, farRadii_) / whole);
+    return static_cast<float>(avx2::solidAngle(*hierarchy_, moments_.data(), p, farRadii) / whole);
 #endif
-  return static_cast<float>(portable::solidAngle(*hierarchy_, moments_.data(), p, farRadii_) / whole);
+  return static_cast<float>(portable::solidAngle(*hierarchy_, moments_.data(), p, farRadii) / whole);
 }
 
 } // namespace brickfield

@@ -32,10 +32,13 @@ public:
   /// returns  within 0.01 of the exact number; within 0.1 with kFarRadiiOfWhole
   /// proved by tests/bake/bakers/winding_number_test.cpp
   float at(glm::dvec3 point) const;
+  /// By all triangles, to 1e-5. cost 2 ns a triangle
+  float exactlyAt(glm::dvec3 point) const;
 
   std::size_t bytes() const { return moments_.size() * sizeof(WindingMoments); } ///< of the moments
 
 private:
+  float turns(glm::dvec3 point, float farRadii) const;
   struct Cluster;
   Cluster gather(HierarchyChild child, int depth);
   static void setLane(WindingMoments& moments, std::size_t lane, const Cluster& cluster);

@@ -1,4 +1,4 @@
-// The flags of `bench world-field`.
+// The flags of `bench world-field` and `bench bake`.
 #include "app/command_bench.h"
 
 #include <bit>
@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/bench_bake.h"
 #include "app/bench_world_field.h"
 #include "app/parse.h"
 #include "core/error.h"
@@ -126,14 +127,51 @@ void addWorldField(CLI::App& bench, CommandAction& chosen) {
   });
 }
 
+#ifdef BRICKFIELD_BAKERS
+void addBake(CLI::App& bench, CommandAction& chosen) {
+  CLI::App& command = *bench.add_subcommand("bake", "Times, memory and errors of the baker, beside OpenVDB's");
+  const auto request = std::make_shared<BakeBenchRequest>();
+  command.add_option("FILES", request->meshPaths, "glTF 2.0 files: of each the largest mesh")->required();
+  addValue(command, "--resolutions", "Voxels along the longest side, 8 to 1024, comma separated; 64,128,256 by default",
+           [=](auto& flag, auto& text) { request->resolutions = parseList<int>(text, wholeIn(flag, 8, 1024)); })
+      ->type_name("N,...");
+  addValue(command, "--sign", "As for bake; auto by default", [=](auto& flag, auto& text) {
+    request->sign = parseSign(flag, text);
+  })->type_name("METHOD");
+  command.add_flag("--joined", request->isJoined, "All meshes of a file in one, as they stand in its scene");
+  addValue(command, "--threads", "Of both sides, 2 by default", [=](auto& flag, auto& text) {
+    request->threads = wholeIn(flag, 1, 1024)(text);
+  })->type_name("N");
+  addValue(command, "--repeats", "Runs of which the median is taken, 5 by default", [=](auto& flag, auto& text) {
+    request->repeats = wholeIn(flag, 1, 1000)(text);
+  })->type_name("N");
+  addValue(command, "--error-samples", "Samples that are compared with brute force; absent: what takes a second or two",
+           [=](auto& flag, auto& text) {
+             request->errorSamples = static_cast<std::size_t>(parseWhole(flag, text, 1, 100000000));
+           })
+      ->type_name("N");
+  command.add_flag("!--no-full", request->withFullBake, "Leave out the bake with attributes and mips");
+  addPath(command, "--json", "The figures as .json", request->json);
+  command.callback([request, &chosen] {
+    chosen = [request] {
+      runBakeBench(*request);
+      return 0;
+    };
+  });
+}
+#endif
+
 } // namespace
 
 void addBenchCommand(CLI::App& program, CommandAction& chosen) {
-  CLI::App& command = *program.add_subcommand("bench", "Measure, on this machine's GPU");
+  CLI::App& command = *program.add_subcommand("bench", "Measure, on this machine");
   command.callback([&command] {
-    if (command.get_subcommands().empty()) throw BadInput("bench", "", "needs world-field");
+    if (command.get_subcommands().empty()) throw BadInput("bench", "", "needs world-field or bake");
   });
   addWorldField(command, chosen);
+#ifdef BRICKFIELD_BAKERS
+  addBake(command, chosen);
+#endif
 }
 
 } // namespace brickfield
