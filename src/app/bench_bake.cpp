@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -98,10 +99,18 @@ std::unique_ptr<BenchMesh> loadMesh(const std::filesystem::path& path, const Bak
   return mesh;
 }
 
-double secondsOf(const std::function<void()>& work) {
+/// Seconds by the clock, and of all threads together: on a machine that does other work, only the latter can be
+/// compared.
+struct TimeTaken {
+  double seconds = 0, processorSeconds = 0;
+};
+
+TimeTaken timeOf(const std::function<void()>& work) {
+  const std::clock_t processor = std::clock();
   const auto start = std::chrono::steady_clock::now();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+          static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC};
 }
 
 template <typename Value, typename Key>
@@ -127,7 +136,8 @@ PeerMesh peerMeshOf(const BakeInput& input, double voxelMetres) {
 struct BenchRow {
   BakeStats ours; ///< of the median run
   std::optional<std::uint64_t> ourPeak, peerPeak;
-  std::optional<double> peerSeconds;
+  double ourProcessorSeconds = 0;
+  std::optional<double> peerSeconds, peerProcessorSeconds;
   std::uint64_t peerVoxels = 0;
   BandAccuracy accuracy;
   bool isOpen = false; ///< distances near membranes are theirs
@@ -146,22 +156,30 @@ BenchRow measure(const BenchMesh& mesh, const BakeBenchRequest& request, int res
   const BakeSettings settings = settingsOf(request, resolution);
   BenchRow row;
   std::vector<BakeStats> runs;
-  std::vector<double> peerRuns;
+  std::vector<double> processorRuns, peerRuns, peerProcessorRuns;
   for (int i = 0; i < request.repeats; ++i) {
     throwIfInterrupted();
     const PeakMemory peak;
-    const BandBake band = bakeBand(mesh.bareInput, settings);
+    BandBake band;
+    processorRuns.push_back(timeOf([&] { band = bakeBand(mesh.bareInput, settings); }).processorSeconds);
     if (i == 0) row.ourPeak = peak.bytes();
     runs.push_back(band.stats);
     if (!isBuiltWithOpenVdb()) continue;
     const double voxelMetres = band.level.voxelSizeObject;
     const PeakMemory peerPeak;
-    peerRuns.push_back(
-        secondsOf([&] { row.peerVoxels = bandByOpenVdb(peerMeshOf(mesh.bareInput, voxelMetres), request.threads); }));
+    const TimeTaken taken =
+        timeOf([&] { row.peerVoxels = bandByOpenVdb(peerMeshOf(mesh.bareInput, voxelMetres), request.threads); });
+    peerRuns.push_back(taken.seconds);
+    peerProcessorRuns.push_back(taken.processorSeconds);
     if (i == 0) row.peerPeak = peerPeak.bytes();
   }
   row.ours = medianBy(runs, [](const BakeStats& stats) { return stats.seconds; });
-  if (!peerRuns.empty()) row.peerSeconds = medianBy(peerRuns, [](double seconds) { return seconds; });
+  const auto itself = [](double seconds) { return seconds; };
+  row.ourProcessorSeconds = medianBy(processorRuns, itself);
+  if (!peerRuns.empty()) {
+    row.peerSeconds = medianBy(peerRuns, itself);
+    row.peerProcessorSeconds = medianBy(peerProcessorRuns, itself);
+  }
   BakeSettings plain = settings;
   plain.sign = SignMethod::Winding; // no slabs, no solids drawn thicker: distances are those to triangles
   const BandBake band = bakeBand(mesh.bareInput, plain);
@@ -179,10 +197,11 @@ std::string mebibytesText(std::optional<std::uint64_t> bytes) {
 
 void printRow(const BenchMesh& mesh, int resolution, const BenchRow& row) {
   const BakeSeconds& stages = row.ours.stages;
-  const std::string peer = row.peerSeconds
-                               ? fmt::format("{:9.1f} {:>8} {:6.2f}x", *row.peerSeconds * 1e3,
-                                             mebibytesText(row.peerPeak), *row.peerSeconds / row.ours.seconds)
-                               : std::string("  not built with OpenVDB");
+  const std::string peer =
+      row.peerSeconds
+          ? fmt::format("{:9.1f} {:>8} {:6.2f}x {:6.2f}x", *row.peerSeconds * 1e3, mebibytesText(row.peerPeak),
+                        *row.peerSeconds / row.ours.seconds, *row.peerProcessorSeconds / row.ourProcessorSeconds)
+          : std::string("  not built with OpenVDB");
   fmt::print("{:<36}{:>5}{:>9.1f} |{:>8.1f}{:>8.1f}{:>8.1f}{:>8.1f}{:>7.1f} |{:>8}{:>8.2f}{:>8}{:>7.1f} "
              "|{:>10}{:>9.1e}{:>6} |{:>8} |{}\n",
              mesh.name, resolution, row.ours.seconds * 1e3, stages.gather * 1e3, stages.hierarchy * 1e3,
@@ -206,12 +225,15 @@ Json jsonOf(const BenchMesh& mesh, int resolution, const BenchRow& row) {
     peer = {{"seconds", *row.peerSeconds},
             {"peak_bytes", orNull(row.peerPeak)},
             {"active_voxels", row.peerVoxels},
-            {"times_ours", *row.peerSeconds / ours.seconds}};
+            {"processor_seconds", *row.peerProcessorSeconds},
+            {"times_ours", *row.peerSeconds / ours.seconds},
+            {"processor_times_ours", *row.peerProcessorSeconds / row.ourProcessorSeconds}};
   return {
       {"mesh", mesh.name},
       {"resolution", resolution},
       {"triangles", ours.triangles},
       {"seconds", ours.seconds},
+      {"processor_seconds", row.ourProcessorSeconds},
       {"stage_seconds",
        {{"gather", ours.stages.gather},
         {"hierarchy", ours.stages.hierarchy},
@@ -236,13 +258,14 @@ Json jsonOf(const BenchMesh& mesh, int resolution, const BenchRow& row) {
 void printHead(const BakeBenchRequest& request) {
   fmt::print(
       "One band of distances, signs and codes from triangles, {} threads, medians of {}; ms, MiB, voxels. Beside it "
-      "OpenVDB's meshToVolume, 3 voxels to each side, of the same triangles and voxels (x: how much longer it takes).\n"
+      "OpenVDB's meshToVolume, 3 voxels to each side, of the same triangles and voxels (x: how much longer it takes, "
+      "by the clock and in processor time).\n"
       "Errors and signs against brute force in double, of a band without slabs; \"full\": with mips and "
       "attributes.\n\n",
       request.threads, request.repeats);
   fmt::print("{:<36}{:>5}{:>9} |{:>8}{:>8}{:>8}{:>8}{:>7} |{:>8}{:>8}{:>8}{:>7} |{:>10}{:>9}{:>6} |{:>8} |{}\n", "mesh",
              "res", "ours", "gather", "tree", "dist.", "sign", "pack", "bricks", "Mq/s", "peak", "B/tri", "error",
-             "coded", "signs", "full", "  OpenVDB     peak");
+             "coded", "signs", "full", "  OpenVDB     peak   clock  proc.");
 }
 
 Json benchThesis(const BakeBenchRequest& request) {
