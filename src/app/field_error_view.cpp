@@ -52,9 +52,7 @@ const DebugView* fieldErrorView() {
 }
 
 RgbImage fieldErrorPicture(const FieldVolumes& field, const FieldPicture& plane, glm::uvec2 size, const Scene& scene,
-                           const Pose& pose, const std::vector<int>& fieldOfNode) {
-  if (std::any_of(fieldOfNode.begin(), fieldOfNode.end(), [](int index) { return index >= 0; }))
-    throw BadInput("--view", "field-error", "knows the truth of meshes alone; draw them with --sdf none");
+                           const Pose& pose) {
   std::span<const FieldVolume> shown(field.cascades);
   if (plane.cascade >= 0) shown = shown.subspan(static_cast<std::size_t>(plane.cascade), 1);
   std::vector<FieldSample> samples;
@@ -87,8 +85,7 @@ RgbImage fieldErrorPicture(const FieldVolumes& field, const FieldPicture& plane,
 
 const DebugView* fieldErrorView() { return nullptr; }
 
-RgbImage fieldErrorPicture(const FieldVolumes&, const FieldPicture&, glm::uvec2, const Scene&, const Pose&,
-                           const std::vector<int>&) {
+RgbImage fieldErrorPicture(const FieldVolumes&, const FieldPicture&, glm::uvec2, const Scene&, const Pose&) {
   throw BadInput("--view", "field-error", "is not in a build without bakers");
 }
 

@@ -21,6 +21,7 @@ void FrameMedians::add(const std::vector<PassTime>& passes) {
     if (pass.depth > 0) continue; // a part of another
     if (!samples_.contains(pass.name)) order_.push_back(pass.name);
     samples_[pass.name].push_back(pass.milliseconds);
+    recordings_[pass.name].push_back(pass.recordMilliseconds);
     sum += pass.milliseconds;
   }
   sums_.push_back(sum);
@@ -28,7 +29,8 @@ void FrameMedians::add(const std::vector<PassTime>& passes) {
 
 std::vector<PassTime> FrameMedians::passes() const {
   std::vector<PassTime> medians;
-  for (const std::string& name : order_) medians.push_back({name, medianOf(samples_.at(name)), 0});
+  for (const std::string& name : order_)
+    medians.push_back({name, medianOf(samples_.at(name)), 0, medianOf(recordings_.at(name))});
   return medians;
 }
 

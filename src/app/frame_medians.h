@@ -22,7 +22,7 @@ public:
 
 private:
   std::vector<std::string> order_;
-  std::map<std::string, std::vector<double>> samples_;
+  std::map<std::string, std::vector<double>> samples_, recordings_;
   std::vector<double> sums_;
 };
 

@@ -129,8 +129,7 @@ void runRender(const RenderRequest& request) {
   run.drawSeconds = stopwatch.seconds();
   RgbImage picture = displayImage(layers, renderer.readPicture());
   if (showsFieldError(request))
-    picture = fieldErrorPicture(renderer.readWorldField(), renderer.fieldPicture(), layers.size, scene, pose,
-                                baked.fields.fieldOfNode);
+    picture = fieldErrorPicture(renderer.readWorldField(), renderer.fieldPicture(), layers.size, scene, pose);
   if (!request.stats.empty()) run.last = countFrame(request, run.view, renderer);
   if (const std::vector<std::string> errors = context->takeGlErrors(); !errors.empty())
     throw Failure("OpenGL: " + errors.front());

@@ -46,24 +46,24 @@ FrameTimers::Scope::Scope(FrameTimers& timers, std::string_view name) : timers_(
   sample.depth = timers.depth_++;
   if (timers.useClock_) {
     glFinish(); // Work issued before must not count.
-    sample.start = std::chrono::steady_clock::now();
   } else {
     sample.queries = {timers.takeQuery(), timers.takeQuery()};
     glQueryCounter(sample.queries[0], GL_TIMESTAMP);
   }
+  sample.start = std::chrono::steady_clock::now();
 }
 
 FrameTimers::Scope::~Scope() {
   if (!timers_) return;
   --timers_->depth_;
   Sample& sample = timers_->frames_[timers_->current_][index_];
-  if (timers_->useClock_) {
-    glFinish();
-    sample.milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - sample.start).count();
-  } else {
+  if (timers_->useClock_) glFinish();
+  sample.recordMilliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - sample.start).count();
+  if (timers_->useClock_)
+    sample.milliseconds = sample.recordMilliseconds;
+  else
     glQueryCounter(sample.queries[1], GL_TIMESTAMP);
-  }
 }
 
 std::vector<PassTime> FrameTimers::collect(std::vector<Sample>& samples) {
@@ -76,7 +76,7 @@ std::vector<PassTime> FrameTimers::collect(std::vector<Sample>& samples) {
       constexpr double kMillisecondsPerNanosecond = 1e-6;
       sample.milliseconds = end > begin ? static_cast<double>(end - begin) * kMillisecondsPerNanosecond : 0.0;
     }
-    times.push_back({sample.name, sample.milliseconds, sample.depth});
+    times.push_back({sample.name, sample.milliseconds, sample.depth, sample.recordMilliseconds});
   }
   return times;
 }

@@ -17,6 +17,8 @@ struct PassTime {
   std::string name;
   double milliseconds = 0;
   int depth = 0; ///< 0 for outermost scopes, whose times add up
+  /// Of the processor, from when the scope opened to when it closed; on a software rasterizer the same as the other.
+  double recordMilliseconds = 0;
 };
 
 class FrameTimers {
@@ -56,6 +58,7 @@ private:
     std::array<GLuint, 2> queries{};
     std::chrono::steady_clock::time_point start;
     double milliseconds = -1;
+    double recordMilliseconds = 0;
   };
   static constexpr std::size_t kFrames = 4;
 

@@ -5,13 +5,11 @@
 
 #include "tests/support/gl_fixture.h"
 #include "tests/support/hand_scenes.h"
-#include "tests/support/refusal.h"
 #include "tests/support/scene_frames.h"
 
 namespace brickfield::test {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr glm::uvec2 kSize{64, 64};
@@ -29,9 +27,7 @@ protected:
     field_ = renderer->readWorldField();
     plane_ = renderer->fieldPicture();
   }
-  RgbImage picture() const {
-    return fieldErrorPicture(field_, plane_, kSize, scene_.scene(), scene_.pose(), scene_.fields().fieldOfNode);
-  }
+  RgbImage picture() const { return fieldErrorPicture(field_, plane_, kSize, scene_.scene(), scene_.pose()); }
   template <typename Is>
   static std::size_t count(const RgbImage& image, Is is) {
     return static_cast<std::size_t>(std::count_if(image.pixels.begin(), image.pixels.end(), is));
@@ -62,11 +58,27 @@ TEST_F(FieldErrorView, ShowsWrongSides) {
   EXPECT_GT(count(picture(), [](glm::vec3 color) { return color == kWrongSide; }), 2500u);
 }
 
-TEST_F(FieldErrorView, IsRefusedOfObjectsWhoseTruthItDoesNotKnow) {
-  EXPECT_THAT(refusalOf([&] { fieldErrorPicture(field_, plane_, kSize, scene_.scene(), scene_.pose(), {0}); }),
-              AllOf(HasSubstr("field-error"), HasSubstr("--sdf none")));
+TEST_F(FieldErrorView, IsPartOfTheList) {
   ASSERT_NE(fieldErrorView(), nullptr);
   EXPECT_THAT(fieldErrorView()->meaning, HasSubstr("red 0.5"));
+}
+
+// Of bricks a quarter of a texel fine; against what they were baked from.
+TEST_F(FieldErrorView, IsDarkWhereTheFieldOfObjectsIsRight) {
+  const TestScene scene(makeTorusAlone(), "all", 128);
+  RendererSettings settings;
+  settings.view = "field";
+  settings.worldField.shape = {1, 64, 0, true};
+  const auto renderer = scene.makeRenderer(context().info(), settings);
+  renderer->render(scene.autoView(kSize));
+  FieldVolumes field = renderer->readWorldField();
+  const auto countLight = [&] {
+    const RgbImage image = fieldErrorPicture(field, renderer->fieldPicture(), kSize, scene.scene(), scene.pose());
+    return std::count_if(image.pixels.begin(), image.pixels.end(), [](glm::vec3 color) { return color.x > 0.2f; });
+  };
+  EXPECT_LT(countLight(), 30);
+  for (float& texels : field.cascades[0].distances) texels += 0.4f;
+  EXPECT_GT(countLight(), 500);
 }
 
 } // namespace

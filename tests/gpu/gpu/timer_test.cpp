@@ -47,6 +47,8 @@ TEST_P(TimerTest, ScopesComeBackInOrderWithTheirDepth) {
   EXPECT_GT(times[1].milliseconds, 0);
   EXPECT_GE(times[0].milliseconds, times[1].milliseconds + times[2].milliseconds);
   EXPECT_LT(times[0].milliseconds, 60000) << "an unset timestamp was read";
+  EXPECT_GT(times[1].recordMilliseconds, 0);
+  EXPECT_GE(times[0].recordMilliseconds, times[1].recordMilliseconds + times[2].recordMilliseconds);
 }
 
 TEST_P(TimerTest, FinishedFramesAreReadLater) {
