@@ -243,6 +243,7 @@ void searchSurface(FieldObject object, inout ObjectDistance found, vec3 startGri
     if (mayLookAround && (isInLine || i == LOOK_AROUND_ROUND)) {
       mayLookAround = false;
       if (!lookAround(object, found, surface)) return;
+      failures = 0;
     } else if (isInLine) {
       return;
     } else {

@@ -1,8 +1,8 @@
 // Texels of a tile that a group evaluates together after the others, in whatever order, so that its threads do alike.
-// A group has 128 threads; texel k * 128 + thread of the tile is the thread's own, k = 0 to 3.
+// A group has 256 threads; texel k * 256 + thread of the tile is the thread's own, k = 0 and 1.
 #include "shared/world_field_params.h"
 
-const uint OPEN_THREADS = 128u;
+const uint OPEN_THREADS = 256u;
 const int OWN_TEXELS = int(FIELD_TILE_TEXELS / OPEN_THREADS);
 shared uint open[FIELD_TILE_TEXELS];
 shared uint openCount; // one thread zeroes it before a barrier

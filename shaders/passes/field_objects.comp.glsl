@@ -152,7 +152,7 @@ void chooseObject(Place place) {
 }
 
 // The surface point of that neighbour in the tile whose is nearest, where it is nearer than the own one: between two
-// surfaces, and around corners, not every texel finds the right one.
+// surfaces, and around corners, not every texel finds the right one. Inside an object its own surface alone counts.
 // returns its object's number, NO_OBJECT if none is nearer
 uint nearerNeighbour(Place place, uint texel, out vec3 surface) {
   vec3 point = pointOf(place, texel);
@@ -165,6 +165,7 @@ uint nearerNeighbour(Place place, uint texel, out vec3 surface) {
     uint other = indexInTile(beside, int(FIELD_TILE)), number = foundObject[other];
     if (number == NO_OBJECT) continue;
     number &= OBJECT_MASK;
+    if (nearestMetres[texel] < 0.0 && number != (foundObject[texel] & OBJECT_MASK)) continue;
     vec3 otherSurface = surfacePoints[other].xyz;
     FieldObject object = objectAt(place, number);
     float away = lengthWorld(object.instance, gridPoint(object, point) - otherSurface);
@@ -208,8 +209,7 @@ void searchAgain(Place place, uint texel) {
   ObjectDistance found = boundOf(object, pointGrid, readObject(object, clampToBox(object.instance, pointGrid)));
   bool isSame = (foundObject[texel] & OBJECT_MASK) == number;
   if (nearestMetres[texel] < 0.0) {
-    uint node = nearestWord[texel] & FIELD_NODE_MASK;
-    if (!isSame || uint(object.instance.ids.x) + 1u != node) return;
+    if (uint(object.instance.ids.x) + 1u != (nearestWord[texel] & FIELD_NODE_MASK)) return; // a mesh is deeper
     nearestMetres[texel] = storedMetres(place, texel);
   }
   found.upper = isSame ? surfacePoints[texel].w : 1e30;
