@@ -106,10 +106,10 @@ void checkCamera(const CameraRequest& request) {
 
 void addLightOptions(CLI::App& command, LightRequest& request) {
   command
-      .add_option(
-          "--light", request.texts,
-          "sun:X,Y,Z:DEGREES:LUX (where it travels, diameter of its disk), sphere:X,Y,Z:RADIUS:CANDELA, or none; "
-          "repeatable; absent: the scene's own lights")
+      .add_option("--light", request.texts,
+                  "sun:X,Y,Z:DEGREES:LUX (where it travels, diameter of its disk), sphere:X,Y,Z:RADIUS:CANDELA, "
+                  "rectangle:X,Y,Z:DX,DY,DZ:WIDTH,HEIGHT:CANDELA (centre, where it shines), or none; repeatable; "
+                  "absent: the scene's own lights")
       ->take_all()
       ->allow_extra_args(false)
       ->type_name("LIGHT");

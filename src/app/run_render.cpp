@@ -108,6 +108,11 @@ void runRender(const RenderRequest& request) {
   const Pose pose = poseScene(scene, request.scene.pose);
   run.view = makeView(scene, pose, request.camera);            // refuses a bad camera before the bake
   const Lighting lighting = makeLighting(pose, request.light); // and bad lights
+  for (const PosedLight& light : lighting.lights)
+    if (light.light.kind == LightKind::Rectangle)
+      throw BadInput(light.node < 0 ? "--light" : request.scene.path.string(),
+                     light.node < 0 ? light.light.name : nodeLabel(scene, light.node),
+                     "is a rectangle light, which the reference traces but render does not draw");
   sdfNodes(scene, request.scene.sdf, request.scene.threads);
   const std::unique_ptr<Context> context = Context::createHeadless(request.device);
   GLint largest = 0;

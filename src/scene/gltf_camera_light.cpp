@@ -41,6 +41,52 @@ LightKind lightKindOf(const std::string& type) {
   return type == "spot" ? LightKind::Spot : LightKind::Point;
 }
 
+/// What KHR_lights_punctual has no words for, as extras.brickfield of the light: "angle" makes a sun's disk (degrees),
+/// "radius" a sphere of a point light, "size" a rectangle of a spot, whose cone then counts for nothing.
+class AreaLightReader {
+public:
+  AreaLightReader(const GltfDocument& document, const std::string& element) : document_(document), element_(element) {}
+
+  void read(const json& source, Light& light) const {
+    const auto extras = source.find("extras");
+    if (extras == source.end() || !extras->is_object() || !extras->contains("brickfield")) return;
+    const json& settings = (*extras)["brickfield"];
+    if (!settings.is_object()) document_.refuse(element_, "extras.brickfield is not an object");
+    const LightKind kind = light.kind;
+    for (const auto& [key, value] : settings.items()) {
+      if (key == "angle" && kind == LightKind::Sun) {
+        constexpr double kLeastOutOfRange = 180.0;
+        light.angleRadians = glm::radians(notNegative(key, value));
+        if (value.get<double>() >= kLeastOutOfRange) refuse(key, "is not below 180 degrees");
+      } else if (key == "radius" && kind == LightKind::Point) {
+        light.radius = notNegative(key, value);
+        light.kind = LightKind::Sphere;
+      } else if (key == "size" && kind == LightKind::Spot) {
+        if (!value.is_array() || value.size() != 2) refuse(key, "is not an array of two numbers");
+        light.size = {notNegative(key, value[0]), notNegative(key, value[1])};
+        light.kind = LightKind::Rectangle;
+      } else {
+        refuse(key, "is not known here; there are angle of directional, radius of point and size of spot lights");
+      }
+    }
+  }
+
+private:
+  [[noreturn]] void refuse(const std::string& key, const std::string& reason) const {
+    document_.refuse(element_, fmt::format("extras.brickfield.{} {}", key, reason));
+  }
+
+  float notNegative(const std::string& key, const json& value) const {
+    if (!value.is_number()) refuse(key, fmt::format("holds {}, not a number", value.dump()));
+    const float number = value.get<float>();
+    if (!(number >= 0.0f) || !std::isfinite(number)) refuse(key, fmt::format("holds {}, out of range", value.dump()));
+    return number;
+  }
+
+  const GltfDocument& document_;
+  const std::string& element_;
+};
+
 Light readLight(const GltfDocument& document, const json& source, std::size_t index) {
   Light light;
   light.name = source.value("name", "");
@@ -52,6 +98,7 @@ Light readLight(const GltfDocument& document, const json& source, std::size_t in
   light.range = light.kind == LightKind::Sun ? 0.0f : source.value("range", 0.0f);
   if (!isFinite(light.color) || !std::isfinite(light.intensity) || !std::isfinite(light.range))
     document.refuse(element, "color, intensity or range is out of range");
+  AreaLightReader(document, element).read(source, light);
   if (light.kind != LightKind::Spot) return light;
   const auto spot = source.find("spot");
   if (spot == source.end()) document.refuse(element, "is a spot without the member spot");

@@ -22,6 +22,8 @@ LightArrival lightArrivalAt(const PosedLight& posed, glm::vec3 pointWorld) {
   if (light.kind == LightKind::Spot)
     arrival.irradiance *= coneFalloff(glm::dot(posed.directionWorld, -arrival.towardsLight), light.innerConeRadians,
                                       light.outerConeRadians);
+  if (light.kind == LightKind::Rectangle)
+    arrival.irradiance *= std::max(0.0f, glm::dot(posed.directionWorld, -arrival.towardsLight));
   if (!isFinite(arrival.irradiance)) arrival.irradiance = glm::vec3(0.0f); // 1/d² overflows at a point light itself
   return arrival;
 }

@@ -12,7 +12,8 @@ struct LightArrival {
   glm::vec3 irradiance{0.0f};   ///< lux times colour on a surface that faces the light; zero outside cone and range
 };
 
-/// Spheres shine as points at their centre, from their surface on: no nearer than their radius.
+/// Spheres shine as points at their centre, from their surface on: no nearer than their radius. Rectangles shine from
+/// their centre, by the cosine less aside and not backwards.
 LightArrival lightArrivalAt(const PosedLight& light, glm::vec3 pointWorld);
 
 } // namespace brickfield

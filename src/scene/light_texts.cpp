@@ -11,7 +11,8 @@ namespace brickfield {
 namespace {
 
 constexpr const char* kFlag = "--light";
-constexpr const char* kForms = "expected sun:X,Y,Z:DEGREES:LUX, sphere:X,Y,Z:RADIUS:CANDELA or none";
+constexpr const char* kForms = "expected sun:X,Y,Z:DEGREES:LUX, sphere:X,Y,Z:RADIUS:CANDELA, "
+                               "rectangle:X,Y,Z:DX,DY,DZ:WIDTH,HEIGHT:CANDELA or none";
 
 std::vector<std::string_view> splitAt(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
@@ -44,13 +45,17 @@ glm::vec3 parseVector(const std::string& text, std::string_view part, const char
           parseNumber(text, numbers[2], meaning)};
 }
 
+glm::vec3 parseDirection(const std::string& text, std::string_view part) {
+  const glm::dvec3 direction(parseVector(text, part, "direction"));
+  if (!(glm::length(direction) > 0.0)) throw BadInput(kFlag, text, "direction must not be zero");
+  return glm::vec3(glm::normalize(direction));
+}
+
 PosedLight parseSun(const std::string& text, const std::vector<std::string_view>& parts) {
   PosedLight sun;
   sun.light.name = text;
   sun.light.kind = LightKind::Sun;
-  const glm::dvec3 direction(parseVector(text, parts[1], "direction"));
-  if (!(glm::length(direction) > 0.0)) throw BadInput(kFlag, text, "direction must not be zero");
-  sun.directionWorld = glm::vec3(glm::normalize(direction));
+  sun.directionWorld = parseDirection(text, parts[1]);
   const float degrees = parseNotNegative(text, parts[2], "angle");
   if (degrees >= 180.0f) throw BadInput(kFlag, text, "angle must be below 180 degrees");
   sun.light.angleRadians = glm::radians(degrees);
@@ -68,6 +73,28 @@ PosedLight parseSphere(const std::string& text, const std::vector<std::string_vi
   return sphere;
 }
 
+PosedLight parseRectangle(const std::string& text, const std::vector<std::string_view>& parts) {
+  PosedLight rectangle;
+  rectangle.light.name = text;
+  rectangle.light.kind = LightKind::Rectangle;
+  rectangle.positionWorld = parseVector(text, parts[1], "position");
+  rectangle.directionWorld = parseDirection(text, parts[2]);
+  rectangle.rightWorld = levelRightOf(rectangle.directionWorld);
+  const std::vector<std::string_view> sides = splitAt(parts[3], ',');
+  if (sides.size() != 2) throw BadInput(kFlag, text, "size needs two numbers WIDTH,HEIGHT");
+  rectangle.light.size = {parseNotNegative(text, sides[0], "width"), parseNotNegative(text, sides[1], "height")};
+  rectangle.light.intensity = parseNotNegative(text, parts[4], "intensity");
+  return rectangle;
+}
+
+PosedLight parseLight(const std::string& text) {
+  const std::vector<std::string_view> parts = splitAt(text, ':');
+  if (parts[0] == "sun" && parts.size() == 4) return parseSun(text, parts);
+  if (parts[0] == "sphere" && parts.size() == 4) return parseSphere(text, parts);
+  if (parts[0] == "rectangle" && parts.size() == 5) return parseRectangle(text, parts);
+  throw BadInput(kFlag, text, kForms);
+}
+
 } // namespace
 
 std::vector<PosedLight> parseLightTexts(const std::vector<std::string>& lightTexts) {
@@ -77,9 +104,7 @@ std::vector<PosedLight> parseLightTexts(const std::vector<std::string>& lightTex
       if (lightTexts.size() > 1) throw BadInput(kFlag, text, "cannot stand beside other lights");
       return {};
     }
-    const std::vector<std::string_view> parts = splitAt(text, ':');
-    if (parts.size() != 4 || (parts[0] != "sun" && parts[0] != "sphere")) throw BadInput(kFlag, text, kForms);
-    lights.push_back(parts[0] == "sun" ? parseSun(text, parts) : parseSphere(text, parts));
+    lights.push_back(parseLight(text));
   }
   return lights;
 }

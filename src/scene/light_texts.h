@@ -8,7 +8,8 @@
 
 namespace brickfield {
 
-/// "sun:X,Y,Z:DEGREES:LUX", "sphere:X,Y,Z:RADIUS:CANDELA" or "none" (alone).
+/// "sun:X,Y,Z:DEGREES:LUX", "sphere:X,Y,Z:RADIUS:CANDELA", "rectangle:X,Y,Z:DX,DY,DZ:WIDTH,HEIGHT:CANDELA" (its
+/// centre, where it shines, its width lying level; along X where it shines straight up or down) or "none" (alone).
 /// error BadInput that names the flag and the text
 std::vector<PosedLight> parseLightTexts(const std::vector<std::string>& lightTexts);
 

@@ -37,8 +37,9 @@ struct Lighting {
 
 /// The lights of a frame from what the user said (texts as on the command line) and what the scene has.
 ///
-/// lightTexts       "sun:X,Y,Z:DEGREES:LUX", "sphere:X,Y,Z:RADIUS:CANDELA" or "none"; empty: the scene's own lights,
-///                  and where it has none a sun of π lux from the upper left and the sky
+/// lightTexts       "sun:X,Y,Z:DEGREES:LUX", "sphere:X,Y,Z:RADIUS:CANDELA", "rectangle:X,Y,Z:DX,DY,DZ:WIDTH,HEIGHT:
+///                  CANDELA" or "none"; empty: the scene's own lights, and where it has none a sun of π lux from the
+///                  upper left and the sky
 /// environment      loaded by the caller; one of size 0: the sky
 /// error            BadInput that names the flag
 Lighting makeLighting(const Pose& pose, const std::vector<std::string>& lightTexts, Environment environment);

@@ -101,6 +101,12 @@ PosedLight poseLight(const Scene& scene, int node, const glm::mat4& worldFromNod
   const glm::vec3 direction = -glm::vec3(worldFromNode[2]);
   const float length = glm::length(direction);
   if (length > 0.0f && std::isfinite(length)) posed.directionWorld = direction / length;
+  // Square to the direction, also under a sheared node.
+  const glm::vec3 width = glm::vec3(worldFromNode[0]);
+  const glm::vec3 right = width - glm::dot(width, posed.directionWorld) * posed.directionWorld;
+  const float rightLength = glm::length(right);
+  posed.rightWorld =
+      rightLength > 0.0f && std::isfinite(rightLength) ? right / rightLength : levelRightOf(posed.directionWorld);
   return posed;
 }
 
@@ -150,6 +156,13 @@ Box boundsOf(const Scene& scene, const PosedInstance& instance, ObjectBoxes& obj
 }
 
 } // namespace
+
+glm::vec3 levelRightOf(glm::vec3 directionWorld) {
+  const glm::vec3 right = glm::cross(directionWorld, glm::vec3(0.0f, 1.0f, 0.0f));
+  const float length = glm::length(right);
+  constexpr float kLeastSine = 1e-6f; // below it the cross product is mostly rounding
+  return length > kLeastSine ? right / length : glm::vec3(1.0f, 0.0f, 0.0f);
+}
 
 Pose poseScene(const Scene& scene, const PoseRequest& request) {
   const std::vector<std::size_t> animations = chooseAnimations(scene, request.animation);

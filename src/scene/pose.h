@@ -32,7 +32,11 @@ struct PosedLight {
   Light light;
   glm::vec3 positionWorld{0.0f};
   glm::vec3 directionWorld{0.0f, 0.0f, -1.0f}; ///< where the light travels, unit
+  glm::vec3 rightWorld{1.0f, 0.0f, 0.0f};      ///< along a rectangle's width, unit, square to the direction
 };
+
+/// Unit, level (square to +Y) and square to a unit direction; +X where that points straight up or down.
+glm::vec3 levelRightOf(glm::vec3 directionWorld);
 
 struct Pose {
   std::vector<glm::mat4> worldFromNode; ///< every node of the scene; identity where not reached

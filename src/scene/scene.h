@@ -157,9 +157,10 @@ struct Camera {
   glm::vec2 halfExtent{1.0f};       ///< orthographic: metres
 };
 
-enum class LightKind : std::uint8_t { Sun, Point, Spot, Sphere };
+enum class LightKind : std::uint8_t { Sun, Point, Spot, Sphere, Rectangle };
 
-/// Shines along its own -Z. Units as in KHR_lights_punctual: lux for suns, candela for the others.
+/// Shines along its own -Z. Units as in KHR_lights_punctual: lux for suns, candela for the others; those of a rectangle
+/// leave along its -Z, and by the cosine less aside: it is of one radiance on its front, dark on its back.
 struct Light {
   std::string name;
   LightKind kind = LightKind::Point;
@@ -170,6 +171,7 @@ struct Light {
   float outerConeRadians = 0.7853982f;
   float radius = 0.0f;       ///< Sphere: metres
   float angleRadians = 0.0f; ///< Sun: diameter of the disk
+  glm::vec2 size{0.0f};      ///< Rectangle: metres along its own X and Y
 };
 
 /// One of the file's scenes: the roots that are shown.

@@ -142,6 +142,37 @@ TEST(GltfNode, LightsOfEveryKind) {
   EXPECT_THAT(builder.error(), HasSubstr("light 2: innerConeAngle"));
 }
 
+TEST(GltfNode, ExtrasGiveLightsASize) {
+  GltfBuilder builder = withNodes(R"([{"extensions":{"KHR_lights_punctual":{"light":2}}}])");
+  builder.root["extensionsUsed"] = {"KHR_lights_punctual"};
+  json& lights = builder.root["extensions"]["KHR_lights_punctual"]["lights"];
+  const json good = json::parse(R"([
+    {"type":"directional","extras":{"brickfield":{"angle":2}}},
+    {"type":"point","extras":{"brickfield":{"radius":0.25},"other":1}},
+    {"type":"spot","name":"Panel","spot":{},"extras":{"brickfield":{"size":[0.5,2]}}}])");
+  lights = good;
+  const Scene scene = builder.import();
+  EXPECT_EQ(scene.lights[0].kind, LightKind::Sun);
+  EXPECT_FLOAT_EQ(scene.lights[0].angleRadians, glm::radians(2.0f));
+  EXPECT_EQ(scene.lights[1].kind, LightKind::Sphere);
+  EXPECT_EQ(scene.lights[1].radius, 0.25f);
+  EXPECT_EQ(scene.lights[2].kind, LightKind::Rectangle);
+  EXPECT_EQ(scene.lights[2].size, glm::vec2(0.5f, 2));
+  const Pose pose = poseScene(scene, {});
+  EXPECT_EQ(pose.lights[0].rightWorld, glm::vec3(1, 0, 0)) << "along the node's X";
+
+  for (const auto& [light, settings, reason] :
+       {std::tuple(0, R"({"angle":180})", "is not below 180"), std::tuple(0, R"({"radius":1})", "is not known here"),
+        std::tuple(1, R"({"radius":-1})", "out of range"), std::tuple(1, R"({"radius":"wide"})", "not a number"),
+        std::tuple(1, R"([1])", "not an object"), std::tuple(2, R"({"size":[1]})", "two numbers"),
+        std::tuple(2, R"({"size":[1,-2]})", "out of range")}) {
+    lights = good;
+    lights[static_cast<std::size_t>(light)]["extras"]["brickfield"] = json::parse(settings);
+    EXPECT_THAT(builder.error(), HasSubstr(reason)) << settings;
+    EXPECT_THAT(builder.error(), HasSubstr("light " + std::to_string(light))) << settings;
+  }
+}
+
 TEST(GltfNode, InstancesCombineTranslationRotationScale) {
   GltfBuilder builder = withNodes(R"([{"mesh":0}])");
   builder.root["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};

@@ -64,11 +64,44 @@ TEST(Lighting, SphereTextIsReadWhole) {
   EXPECT_EQ(lighting.lights[0].light.intensity, 80.0f);
 }
 
+TEST(Lighting, RectangleTextIsReadWhole) {
+  const PosedLight light = lightingOf({"rectangle:1,2,3:0,-0.5,0:0.5,2:80"}).lights.at(0);
+  EXPECT_EQ(light.light.kind, LightKind::Rectangle);
+  EXPECT_EQ(light.positionWorld, glm::vec3(1, 2, 3));
+  EXPECT_EQ(light.directionWorld, glm::vec3(0, -1, 0));
+  EXPECT_EQ(light.rightWorld, glm::vec3(1, 0, 0)) << "straight down: along X";
+  EXPECT_EQ(light.light.size, glm::vec2(0.5f, 2));
+  EXPECT_EQ(light.light.intensity, 80.0f);
+  const PosedLight slanted = lightingOf({"rectangle:0,0,0:1,-1,2:1,1:1"}).lights.at(0);
+  EXPECT_NEAR(glm::dot(slanted.rightWorld, slanted.directionWorld), 0.0f, 1e-6f);
+  EXPECT_EQ(slanted.rightWorld.y, 0.0f) << "level";
+  EXPECT_NEAR(glm::length(slanted.rightWorld), 1.0f, 1e-6f);
+}
+
 TEST(Lighting, WrongTextsNameTheFlagAndTheText) {
-  for (const std::string text :
-       {"", "sun", "moon:0,1,0:1:1", "sun:0,1:1:1", "sun:0,0,0:1:1", "sun:0,1,0:1:-1", "sun:0,1,0:180:1",
-        "sun:0,1,0:-1:1", "sun:0,1,0:1:1:1", "sun:0,1,x:1:1", "sun:0,1,0:nan:1", "sun:0,inf,0:1:1", "sun:0,1,0::1",
-        "sphere:0,0,0:-1:1", "sphere:0,0,0:1:bright", "sphere:0,0,0:1: 1", "None"}) {
+  for (const std::string text : {"",
+                                 "sun",
+                                 "moon:0,1,0:1:1",
+                                 "sun:0,1:1:1",
+                                 "sun:0,0,0:1:1",
+                                 "sun:0,1,0:1:-1",
+                                 "sun:0,1,0:180:1",
+                                 "sun:0,1,0:-1:1",
+                                 "sun:0,1,0:1:1:1",
+                                 "sun:0,1,x:1:1",
+                                 "sun:0,1,0:nan:1",
+                                 "sun:0,inf,0:1:1",
+                                 "sun:0,1,0::1",
+                                 "sphere:0,0,0:-1:1",
+                                 "sphere:0,0,0:1:bright",
+                                 "sphere:0,0,0:1: 1",
+                                 "None",
+                                 "rectangle:0,0,0:0,-1,0:1,1",
+                                 "rectangle:0,0,0:0,0,0:1,1:1",
+                                 "rectangle:0,0,0:0,-1,0:1:1",
+                                 "rectangle:0,0,0:0,-1,0:1,-1:1",
+                                 "rectangle:0,0,0:0,-1,0:1,1:-1",
+                                 "rectangle:0,0:0,-1,0:1,1:1"}) {
     try {
       lightingOf({text});
       ADD_FAILURE() << "accepted: " << text;
@@ -215,6 +248,11 @@ TEST(LightArrival, FollowsTheExtension) {
   EXPECT_EQ(lightArrivalAt(light, {0, 0, 0}).distance, 3.0f) << "ends at the surface";
   EXPECT_EQ(lightArrivalAt(light, {0, 3.9f, 0}).irradiance.x, 32.0f) << "no nearer than the radius";
   EXPECT_EQ(lightArrivalAt(light, {0, 4, 0}).irradiance, glm::vec3(0.0f));
+
+  light.light.kind = LightKind::Rectangle;
+  EXPECT_EQ(lightArrivalAt(light, {0, 0, 0}).irradiance, glm::vec3(2, 1, 0));
+  EXPECT_NEAR(lightArrivalAt(light, {4, 0, 0}).irradiance.x, 32.0f / 32.0f * std::sqrt(0.5f), 1e-6f) << "by its cosine";
+  EXPECT_EQ(lightArrivalAt(light, {0, 5, 0}).irradiance, glm::vec3(0.0f)) << "dark behind";
 
   light.light.kind = LightKind::Sun;
   arrival = lightArrivalAt(light, {1, 2, 3});
