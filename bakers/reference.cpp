@@ -1,4 +1,5 @@
-// The reference image: tiles of pixels over all cores, each pixel on its own, so that threads change nothing.
+// The reference image: passes of ever more samples over all tiles, tiles over all cores, each pixel on its own, so that
+// threads change nothing.
 #include "bakers/reference.h"
 
 #include <algorithm>
@@ -8,7 +9,10 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <fmt/format.h>
+
 #include "bakers/reference_geometry.h"
+#include "bakers/reference_samples.h"
 #include "bakers/reference_shading.h"
 #include "core/error.h"
 
@@ -17,24 +21,8 @@ namespace brickfield {
 namespace {
 
 constexpr std::uint32_t kTilePixels = 16;
-
-/// SplitMix64's finalizer (Steele et al. 2014): well mixed bits of a counter.
-std::uint64_t mixBits(std::uint64_t bits) {
-  bits += 0x9e3779b97f4a7c15u;
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
-  return bits ^ (bits >> 31);
-}
-
-/// Where in its pixel a sample goes: the centre first, then the plastic-number sequence (Roberts 2018), evenly spread
-/// for any count and shifted by a random amount of the pixel's own.
-glm::vec2 sampleOffset(int sample, glm::uvec2 pixel, std::uint64_t seed) {
-  if (sample == 0) return glm::vec2(0.5f);
-  constexpr glm::dvec2 kStep(0.7548776662466927, 0.5698402909980532); // 1/p, 1/p² with p³ = p + 1
-  const std::uint64_t bits = mixBits(mixBits(seed) ^ (std::uint64_t{pixel.y} << 32 | pixel.x));
-  const glm::dvec2 shift(static_cast<double>(bits >> 32), static_cast<double>(bits & 0xffffffffu));
-  return glm::vec2(glm::fract(shift / 4294967296.0 + static_cast<double>(sample) * kStep));
-}
+constexpr int kMostPassSamples = 64; // of a pixel in one pass: a look at the cancel flag lies between two passes
+constexpr std::size_t kMostShadowLayers = 32; // files of layers hold 64 parts
 
 RayBundle bundleOf(const View& view, glm::vec2 pixel, float step) {
   return {primaryRay(view, pixel), primaryRay(view, pixel + glm::vec2(step, 0.0f)),
@@ -62,71 +50,107 @@ public:
       : request_(request),
         progress_(progress),
         sampler_(*request.scene),
-        geometry_(*request.scene, *request.pose, sampler_, progress),
-        shading_(*request.lighting, geometry_, request.shadows),
-        layers_(emptyLayers(request.view->sizePixels)) {}
+        geometry_(*request.scene, *request.pose, request.fields, sampler_, progress),
+        shading_(request, geometry_),
+        layers_(emptyLayers(request.view->sizePixels)),
+        samples_(std::max(request.samples, 1)),
+        tileCounts_((layers_.size + kTilePixels - 1u) / kTilePixels) {
+    const std::size_t pixels = layers_.depth.size();
+    if (request.shadowLayers && request.shadows)
+      layers_.shadow.assign(std::min(request.lighting->lights.size(), kMostShadowLayers),
+                            std::vector<float>(pixels, 1.0f));
+    if (request.ambientOcclusionMetres) layers_.ambientOcclusion.assign(pixels, 1.0f);
+    // The rays of the layers are a pass of their own, unless the only sample of the picture is that same ray.
+    isLayerPassShared_ = samples_ == 1;
+    total_ = tileCount() * static_cast<std::size_t>(samples_ + (isLayerPassShared_ ? 0 : 1));
+  }
 
   FrameLayers run() {
-    const glm::uvec2 tiles((layers_.size + kTilePixels - 1u) / kTilePixels);
-    const std::size_t tileCount = std::size_t{tiles.x} * tiles.y;
-    std::atomic<std::size_t> doneCount{0};
-    tbb::parallel_for(std::size_t{0}, tileCount, [&](std::size_t tile) {
-      if (progress_.isCancelled()) return;
-      traceTile({static_cast<std::uint32_t>(tile % tiles.x), static_cast<std::uint32_t>(tile / tiles.x)});
-      report(++doneCount, tileCount);
-    });
-    if (progress_.isCancelled()) throw Cancelled();
+    runPass("reference", 1, [this](glm::uvec2 pixel) { traceLayers(pixel); });
+    int passSamples = 1;
+    for (int begin = isLayerPassShared_ ? samples_ : 0; begin < samples_; begin += passSamples) {
+      passSamples = std::min({std::max(begin, 1), kMostPassSamples, samples_ - begin});
+      const std::string stage = fmt::format("reference, {} of {} samples", begin, samples_);
+      runPass(stage, passSamples, [=, this](glm::uvec2 pixel) { addSamples(pixel, begin, begin + passSamples); });
+    }
+    for (glm::vec3& color : layers_.color) color /= static_cast<float>(samples_);
     return std::move(layers_);
   }
 
 private:
-  void traceTile(glm::uvec2 tile) {
-    const glm::uvec2 begin = tile * kTilePixels, end = glm::min(begin + kTilePixels, layers_.size);
-    for (std::uint32_t y = begin.y; y < end.y; ++y)
-      for (std::uint32_t x = begin.x; x < end.x && !progress_.isCancelled(); ++x) tracePixel({x, y});
+  std::size_t tileCount() const { return std::size_t{tileCounts_.x} * tileCounts_.y; }
+  std::size_t indexOf(glm::uvec2 pixel) const { return std::size_t{pixel.y} * layers_.size.x + pixel.x; }
+
+  /// weight  samples a pixel, for the progress
+  template <typename TracePixel>
+  void runPass(const std::string& stage, int weight, const TracePixel& tracePixel) {
+    tbb::parallel_for(std::size_t{0}, tileCount(), [&](std::size_t tile) {
+      const glm::uvec2 place(tile % tileCounts_.x, tile / tileCounts_.x);
+      const glm::uvec2 begin = place * kTilePixels, end = glm::min(begin + kTilePixels, layers_.size);
+      for (std::uint32_t y = begin.y; y < end.y; ++y)
+        for (std::uint32_t x = begin.x; x < end.x && !progress_.isCancelled(); ++x) tracePixel(glm::uvec2(x, y));
+      if (!progress_.isCancelled()) report(stage, done_ += static_cast<std::size_t>(weight));
+    });
+    if (progress_.isCancelled()) throw Cancelled();
   }
 
-  void tracePixel(glm::uvec2 pixel) {
-    const std::size_t index = std::size_t{pixel.y} * layers_.size.x + pixel.x;
-    const int samples = std::max(request_.samples, 1);
-    glm::vec3 sum(0.0f);
-    for (int sample = 0; sample < samples; ++sample) {
-      // The first sample alone makes the layers and sees what a rasterizer's pixel sees; the others share the pixel.
-      const float step = sample == 0 ? 1.0f : 1.0f / std::sqrt(static_cast<float>(samples));
-      const glm::vec2 place = glm::vec2(pixel) + sampleOffset(sample, pixel, request_.seed);
-      sum += traceSample(bundleOf(*request_.view, place, step), sample == 0 ? &index : nullptr);
-    }
-    layers_.color[index] = sum / static_cast<float>(samples);
-  }
-
-  /// layerIndex   where the layers of this sample go, if anywhere
-  glm::vec3 traceSample(const RayBundle& rays, const std::size_t* layerIndex) {
-    const glm::vec3 direction = rays.center.directionWorld;
+  /// The ray through the pixel's centre, which sees what a rasterizer's pixel sees.
+  void traceLayers(glm::uvec2 pixel) {
+    const PixelSamples samples(pixel, request_.seed, samples_);
+    const RayBundle rays = bundleOf(*request_.view, glm::vec2(pixel) + 0.5f, 1.0f);
     const std::optional<SurfaceHit> hit = geometry_.trace(rays);
-    if (!hit) return shading_.sky(direction);
-    const MaterialSample material = sampler_.sampleMaterial(*hit->material, hit->materialPoint);
-    const glm::vec3 normal = shadingNormal(*hit, material);
-    if (layerIndex) {
-      layers_.depth[*layerIndex] = hit->distance;
-      layers_.normal[*layerIndex] = normal;
-      layers_.normalSurface[*layerIndex] = hit->isBackFace ? -hit->normalVertex : hit->normalVertex;
-      layers_.albedo[*layerIndex] = glm::vec3(material.baseColor);
-      layers_.id[*layerIndex] = hit->node;
-      layers_.kind[*layerIndex] = request_.isSdf && request_.isSdf(hit->node) ? SurfaceKind::Sdf : SurfaceKind::Mesh;
+    if (hit) fillLayers(indexOf(pixel), *hit, samples);
+    if (isLayerPassShared_) layers_.color[indexOf(pixel)] = radianceOf(rays, hit, samples, 0);
+  }
+
+  void fillLayers(std::size_t index, const SurfaceHit& hit, const PixelSamples& samples) {
+    const MaterialSample material = materialOf(hit);
+    layers_.depth[index] = hit.distance;
+    layers_.normal[index] = shadingNormal(hit, material);
+    layers_.normalSurface[index] = hit.isBackFace ? -hit.normalVertex : hit.normalVertex;
+    layers_.albedo[index] = glm::vec3(material.baseColor);
+    layers_.id[index] = hit.node;
+    const bool isSdf = hit.fieldMaterial || (request_.isSdf && request_.isSdf(hit.node));
+    layers_.kind[index] = isSdf ? SurfaceKind::Sdf : SurfaceKind::Mesh;
+    for (std::uint32_t light = 0; light < layers_.shadow.size() && !progress_.isCancelled(); ++light)
+      layers_.shadow[light][index] = shading_.visibleShare(hit, light, samples);
+    if (!layers_.ambientOcclusion.empty()) layers_.ambientOcclusion[index] = shading_.openShare(hit, samples);
+  }
+
+  void addSamples(glm::uvec2 pixel, int begin, int end) {
+    const PixelSamples samples(pixel, request_.seed, samples_);
+    const float step = 1.0f / std::sqrt(static_cast<float>(samples_)); // the samples share the pixel
+    glm::dvec3 sum(0.0);
+    for (int sample = begin; sample < end; ++sample) {
+      const glm::vec2 place = glm::vec2(pixel) + samples.point(sample, SamplePurpose::Pixel);
+      const RayBundle rays = bundleOf(*request_.view, place, step);
+      sum += radianceOf(rays, geometry_.trace(rays), samples, sample);
     }
-    return shading_.shade(*hit, material, normal, -direction);
+    layers_.color[indexOf(pixel)] += glm::vec3(sum);
+  }
+
+  glm::vec3 radianceOf(const RayBundle& rays, const std::optional<SurfaceHit>& hit, const PixelSamples& samples,
+                       int sample) const {
+    const glm::vec3 direction = rays.center.directionWorld;
+    if (!hit) return shading_.sky(direction);
+    const MaterialSample material = materialOf(*hit);
+    return shading_.shade(*hit, material, shadingNormal(*hit, material), -direction, samples, sample);
+  }
+
+  MaterialSample materialOf(const SurfaceHit& hit) const {
+    return hit.fieldMaterial ? *hit.fieldMaterial : sampler_.sampleMaterial(*hit.material, hit.materialPoint);
   }
 
   /// Whoever finds another thread reporting does not wait for it; the last tile always reports.
-  void report(std::size_t done, std::size_t total) {
+  void report(const std::string& stage, std::size_t done) {
     if (!progress_.report) return;
     std::unique_lock lock(reportMutex_, std::defer_lock);
-    if (done == total)
+    if (done == total_)
       lock.lock();
     else if (!lock.try_lock())
       return;
     mostReported_ = std::max(mostReported_, done);
-    progress_.report("reference", mostReported_, total);
+    progress_.report(stage, mostReported_, total_);
   }
 
   const ReferenceRequest& request_;
@@ -135,6 +159,11 @@ private:
   ReferenceGeometry geometry_;
   ReferenceShading shading_;
   FrameLayers layers_;
+  int samples_;
+  glm::uvec2 tileCounts_;
+  bool isLayerPassShared_ = false;
+  std::size_t total_ = 0;
+  std::atomic<std::size_t> done_{0};
   std::mutex reportMutex_;
   std::size_t mostReported_ = 0;
 };

@@ -1,30 +1,50 @@
 // The reference image: Embree primary rays against the source triangles, with the renderer's camera and materials.
-// Direct light with hard shadows or without, unshadowed environment light. What the renderer is measured against.
+// Direct light of suns, spheres and rectangles with soft shadows, or of points with hard ones or none; environment
+// light with ambient occlusion or without. What the renderer is measured against.
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "core/progress.h"
+#include "field/brick_field.h"
 #include "scene/frame_layers.h"
 #include "scene/lighting.h"
 #include "scene/view.h"
 
 namespace brickfield {
 
+/// SDF objects that are traced as their own finest bricks.
+struct ReferenceFields {
+  const std::vector<BrickField>* fields = nullptr;
+  const std::vector<int>* fieldOfNode = nullptr; ///< as many as nodes; -1: its triangles
+};
+
 struct ReferenceRequest {
   const Scene* scene = nullptr;
   const Pose* pose = nullptr;
   const View* view = nullptr;
   const Lighting* lighting = nullptr;
-  std::function<bool(int node)> isSdf; ///< marks the `kind` layer; the geometry is the mesh all the same
-  bool shadows = true;                 ///< false: lights pass through everything, as in a renderer without shadows
-  int samples = 1; ///< a pixel; the first goes through the centre and alone makes all layers but colour
+  std::function<bool(int node)> isSdf; ///< marks the `kind` layer; what is traced, `fields` says
+  bool shadows = true; ///< false: lights shine from their centres through everything, as in a renderer without shadows
+  int samples = 1;     ///< a pixel, and of each light and the hemisphere a pixel; one alone goes through the centre
   std::uint64_t seed = 0;
-  int threads = 0; ///< 0: all
+  int threads = 0;                ///< 0: all
+  bool lightsFromCentres = false; ///< every light a point or a direction: hard shadows
+  bool shadowLayers = false;      ///< make FrameLayers::shadow, unless without shadows, of the first 32 lights
+  std::optional<float> ambientOcclusionMetres{}; ///< what lies nearer hides the environment, and makes the layer
+  ReferenceFields fields{};                      ///< empty: triangles alone
 };
 
+/// The picture's expectation over seeds is that of infinitely many samples, with more than one sample a pixel; a ray
+/// through the pixel's centre makes all layers but colour, with `samples` shadow and occlusion rays. The same bytes on
+/// any number of threads. Shadow and occlusion rays are stopped by both sides of surfaces and pass the holes of masks;
+/// the hemisphere is that of the triangle, not of smoothed normals. Ambient occlusion dims all environment light, as
+/// occlusion maps do. A field whose node is nearly flat or scaled beyond a million stays a mesh.
+///
 /// Back faces of single-sided materials are culled, alpha masks are cut; layers as FrameLayers says.
 /// error Cancelled; Failure from Embree; BadInput: the scene reaches beyond 1e11 metres, the eye beyond that
+/// proved by tests/oracle/bakers/reference_test.cpp, area_lights_test.cpp, reference_fields_test.cpp
 FrameLayers traceReference(const ReferenceRequest& request, const Progress& progress = {});
 
 } // namespace brickfield

@@ -9,6 +9,7 @@
 
 #include <embree3/rtcore.h>
 
+#include "bakers/reference_field.h"
 #include "core/error.h"
 
 namespace brickfield {
@@ -43,10 +44,11 @@ struct Part {
   }
 };
 
-/// A hierarchy over the primitives of one mesh.
+/// A hierarchy over the primitives of one mesh, or a field.
 struct Shape {
   std::vector<std::unique_ptr<DeformedPrimitive>> deformed; ///< what parts refer to where the scene's arrays won't do
   std::vector<std::unique_ptr<Part>> parts;
+  const BrickField* field = nullptr; ///< then there are no parts
   SceneHandle scene;
 };
 
@@ -243,6 +245,7 @@ struct ReferenceGeometry::Device {
   /// deformed: in the order of the mesh's primitives, or empty where the scene's own arrays will do.
   const Shape* addShape(const Scene& scene, int mesh, std::vector<std::unique_ptr<DeformedPrimitive>> deformed,
                         const TextureSampler& sampler, const Progress& progress);
+  const Shape* addField(const BrickField& field, const Progress& progress);
   void place(int node, const Shape* shape, const glm::mat4& worldFromObject);
 };
 
@@ -273,6 +276,16 @@ const Shape* ReferenceGeometry::Device::addShape(const Scene& scene, int mesh,
   return shapes.back().get();
 }
 
+const Shape* ReferenceGeometry::Device::addField(const BrickField& field, const Progress& progress) {
+  auto shape = std::make_unique<Shape>();
+  shape->field = &field;
+  shape->scene = newScene();
+  attachField(handle.get(), shape->scene.get(), field);
+  commit(shape->scene.get(), progress);
+  shapes.push_back(std::move(shape));
+  return shapes.back().get();
+}
+
 void ReferenceGeometry::Device::place(int node, const Shape* shape, const glm::mat4& worldFromObject) {
   GeometryHandle geometry(rtcNewGeometry(handle.get(), RTC_GEOMETRY_TYPE_INSTANCE));
   rtcSetGeometryInstancedScene(geometry.get(), shape->scene.get());
@@ -282,8 +295,8 @@ void ReferenceGeometry::Device::place(int node, const Shape* shape, const glm::m
   placements.push_back({node, shape, worldFromObject});
 }
 
-ReferenceGeometry::ReferenceGeometry(const Scene& scene, const Pose& pose, const TextureSampler& sampler,
-                                     const Progress& progress)
+ReferenceGeometry::ReferenceGeometry(const Scene& scene, const Pose& pose, const ReferenceFields& fields,
+                                     const TextureSampler& sampler, const Progress& progress)
     : device_(std::make_unique<Device>()) {
   checkReach(scene, pose.boundsWorld);
   device_->handle.reset(rtcNewDevice(nullptr));
@@ -292,7 +305,15 @@ ReferenceGeometry::ReferenceGeometry(const Scene& scene, const Pose& pose, const
   device_->top = device_->newScene();
 
   std::vector<const Shape*> shapeOfMesh(scene.meshes.size(), nullptr);
+  std::vector<const Shape*> shapeOfField(fields.fields ? fields.fields->size() : 0, nullptr);
   for (const PosedInstance& instance : pose.instances) {
+    const int field = fields.fieldOfNode ? (*fields.fieldOfNode)[static_cast<std::size_t>(instance.node)] : -1;
+    if (field >= 0 && isInvertible(instance.worldFromObject)) {
+      const Shape*& shape = shapeOfField[static_cast<std::size_t>(field)];
+      if (!shape) shape = device_->addField((*fields.fields)[static_cast<std::size_t>(field)], progress);
+      device_->place(instance.node, shape, instance.worldFromObject);
+      continue;
+    }
     const std::vector<Primitive>& primitives = scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives;
     const bool moves = std::ranges::any_of(primitives, [&](const Primitive& p) { return isDeformed(p, instance); });
     const bool flattened = !isInvertible(instance.worldFromObject);
@@ -334,6 +355,8 @@ std::optional<SurfaceHit> ReferenceGeometry::trace(const RayBundle& rays) const 
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
   const Placement& placement = device_->placements[query.hit.instID[0]];
+  if (placement.shape->field)
+    return fieldHit(*placement.shape->field, placement.node, placement.worldFromObject, ray, query.ray.tfar);
   const Part& part = *placement.shape->parts[query.hit.geomID];
   const std::array<glm::vec3, 3> corners = part.corners(query.hit.primID);
   const glm::vec2 barycentric(query.hit.u, query.hit.v);
@@ -342,6 +365,7 @@ std::optional<SurfaceHit> ReferenceGeometry::trace(const RayBundle& rays) const 
   surface.node = placement.node;
   surface.primitive = part.primitive;
   surface.material = part.material;
+  surface.isUnlit = part.material->unlit;
   surface.position = transformPoint(placement.worldFromObject, corners[0] + barycentric.x * (corners[1] - corners[0]) +
                                                                    barycentric.y * (corners[2] - corners[0]));
   surface.positionError = roundingOf(placement.worldFromObject, corners, ray.originWorld, surface.distance);

@@ -1,5 +1,6 @@
 // The posed triangles in Embree: one hierarchy a mesh, shared by its rigid instances; one of its own for each deformed
-// instance. Culls back faces and cuts alpha masks while rays travel. Inner header of the reference.
+// instance; SDF objects that are traced as such are one primitive of their own kind. Culls back faces and cuts alpha
+// masks while rays travel. Inner header of the reference.
 //
 //   world --instanceFromWorld (Embree)--> the space of PosedInstance::worldFromObject --> triangles
 #pragma once
@@ -8,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "bakers/reference.h"
 #include "core/progress.h"
 #include "scene/pose.h"
 #include "scene/texture_sampling.h"
@@ -34,14 +36,18 @@ struct SurfaceHit {
   glm::vec3 bitangent{0.0f};
   bool isBackFace = false;
   MaterialPoint materialPoint; ///< with the footprint of the bundle
+  /// Of a field: what its bricks store; material is the default one then.
+  std::optional<MaterialSample> fieldMaterial;
+  bool isUnlit = false;
 };
 
-/// Refers to the scene, the pose and the sampler, which must outlive it.
+/// Refers to the scene, the pose, the fields and the sampler, which must outlive it.
 class ReferenceGeometry {
 public:
   /// Builds all hierarchies with the threads of the surrounding task arena.
   /// error Failure from Embree; Cancelled; BadInput where geometry reaches beyond 1e11 metres
-  ReferenceGeometry(const Scene& scene, const Pose& pose, const TextureSampler& sampler, const Progress& progress);
+  ReferenceGeometry(const Scene& scene, const Pose& pose, const ReferenceFields& fields, const TextureSampler& sampler,
+                    const Progress& progress);
   ~ReferenceGeometry();
   ReferenceGeometry(const ReferenceGeometry&) = delete;
   ReferenceGeometry& operator=(const ReferenceGeometry&) = delete;

@@ -1,9 +1,11 @@
-// The light that a hit sends back: direct light with hard shadows, unshadowed environment light, emission. Inner header
-// of the reference.
+// The light that a hit sends back: direct light of points or of whole lights, environment light, emission; and what of
+// both a hit sees. Inner header of the reference.
 #pragma once
 
 #include "bakers/reference_geometry.h"
+#include "bakers/reference_samples.h"
 #include "scene/brdf.h"
+#include "scene/light_arrival.h"
 #include "scene/lighting.h"
 #include "scene/prefiltered_environment.h"
 
@@ -12,16 +14,23 @@ namespace brickfield {
 /// What every hit of an image is lit by.
 class ReferenceShading {
 public:
-  /// Lighting and geometry must outlive it. shadows  false: nothing blocks light
-  ReferenceShading(const Lighting& lighting, const ReferenceGeometry& geometry, bool shadows);
+  /// The request and the geometry must outlive it.
+  ReferenceShading(const ReferenceRequest& request, const ReferenceGeometry& geometry);
 
-  /// Radiance towards the viewer.
+  /// Radiance towards the viewer, by one point of each light and one direction of the hemisphere.
   ///
   /// surface        the hit; material what its textures say there
   /// normalWorld    shading normal, on the viewer's side of the triangle
   /// towardsViewer  unit
+  /// sample         which of the pixel's samples it is
   glm::vec3 shade(const SurfaceHit& surface, const MaterialSample& material, glm::vec3 normalWorld,
-                  glm::vec3 towardsViewer) const;
+                  glm::vec3 towardsViewer, const PixelSamples& samples, int sample) const;
+
+  /// Share of a light that the surface sees, by all samples of the pixel: of its solid angle, of a rectangle's area.
+  float visibleShare(const SurfaceHit& surface, std::uint32_t light, const PixelSamples& samples) const;
+
+  /// Share of the hemisphere over the triangle that is open, by the cosine and by all samples of the pixel.
+  float openShare(const SurfaceHit& surface, const PixelSamples& samples) const;
 
   /// Radiance of the surroundings.
   glm::vec3 sky(glm::vec3 directionWorld) const;
@@ -29,10 +38,14 @@ public:
 private:
   glm::vec3 environmentLight(const SurfaceBrdf& brdf, float roughness, glm::vec3 normalWorld,
                              glm::vec3 towardsViewer) const;
+  LightArrival arrivalOf(const PosedLight& light, glm::vec3 pointWorld, glm::vec2 square) const;
+  bool isLit(const SurfaceHit& surface, const LightArrival& arrival) const;
+  bool isOpen(const SurfaceHit& surface, const glm::mat3& basis, glm::vec2 square) const;
 
+  const ReferenceRequest& request_;
   const Lighting& lighting_;
   const ReferenceGeometry& geometry_;
-  bool shadows_;
+  bool fromCentres_;
   std::array<glm::vec3, 9> irradiance_;
   PrefilteredEnvironment environment_;
 };

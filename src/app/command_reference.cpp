@@ -9,14 +9,18 @@
 #include "app/options.h"
 #include "app/parse.h"
 #include "app/progress_bar.h"
+#include "app/scene_fields.h"
 #include "app/session.h"
 #include "app/shadow_choice.h"
 #include "bakers/reference.h"
+#include "core/error.h"
 #include "scene/gltf_import.h"
 
 namespace brickfield {
 
 namespace {
+
+enum class SdfTrace { Unsaid, Meshes, Fields };
 
 struct ReferenceOptions {
   SceneRequest scene;
@@ -25,15 +29,36 @@ struct ReferenceOptions {
   std::filesystem::path output;
   std::filesystem::path layers;
   ShadowChoice shadows = ShadowChoice::Traced;
+  SdfTrace sdfTrace = SdfTrace::Unsaid;
+  bool ambientOcclusion = false;
+  std::optional<float> ambientOcclusionMetres;
   float exposureEv = 0;
-  int samples = 1;
+  std::optional<int> samples;
 };
+
+/// Enough to judge soft shadows by eye; pictures without anything soft keep the one ray through each pixel's centre
+/// that a rasterizer takes, so that they compare with its pictures.
+int samplesOf(const ReferenceOptions& options) {
+  constexpr int kSoftSamples = 16;
+  const bool isSoft = options.shadows == ShadowChoice::Traced || options.ambientOcclusion;
+  return options.samples.value_or(isSoft ? kSoftSamples : 1);
+}
+
+void checkOptions(const ReferenceOptions& options) {
+  checkCamera(options.camera);
+  if (options.ambientOcclusionMetres && !options.ambientOcclusion) throw BadInput("--ao-radius", "", "needs --ao");
+}
+
+bool tracesFields(const ReferenceOptions& options) {
+  if (options.sdfTrace == SdfTrace::Unsaid) return !options.scene.sdf.patterns.empty();
+  return options.sdfTrace == SdfTrace::Fields;
+}
 
 int reference(const ReferenceOptions& options) {
   const std::vector<OutputPath> outputs{{"-o", options.output, {".exr", ".png"}},
                                         {"--layers", options.layers, {".exr"}}};
   checkOutputs(outputs, {options.scene.path, options.light.environment});
-  checkCamera(options.camera);
+  checkOptions(options);
   checkInputPath(options.scene.path, {".gltf", ".glb"});
   const Scene scene = importGltf(options.scene.path);
   checkSceneFiles(scene, outputs);
@@ -48,42 +73,78 @@ int reference(const ReferenceOptions& options) {
   request.pose = &pose;
   request.view = &view;
   request.lighting = &lighting;
-  request.isSdf = [&](int node) { return node >= 0 && sdf[static_cast<std::size_t>(node)].has_value(); };
-  request.shadows = options.shadows == ShadowChoice::Traced;
-  request.samples = options.samples;
+  request.shadows = options.shadows != ShadowChoice::None;
+  request.lightsFromCentres = options.shadows == ShadowChoice::Hard;
+  request.samples = samplesOf(options);
   request.seed = options.scene.seed;
   request.threads = options.scene.threads;
+  request.shadowLayers = !options.layers.empty();
+  if (options.ambientOcclusion)
+    request.ambientOcclusionMetres = options.ambientOcclusionMetres.value_or(std::numeric_limits<float>::infinity());
+  SceneFieldsResult baked;
   FrameLayers layers;
   {
     ProgressBar bar;
+    if (tracesFields(options)) {
+      const std::filesystem::path cache = options.scene.cacheFolder ? *options.scene.cacheFolder : defaultCacheFolder();
+      baked = bakeSceneFields(scene, pose, sdf, cache, bar.progress());
+      request.fields = {&baked.fields.fields, &baked.fields.fieldOfNode};
+    } else {
+      request.isSdf = [&](int node) { return node >= 0 && sdf[static_cast<std::size_t>(node)].has_value(); };
+    }
     layers = traceReference(request, bar.progress());
   }
   throwIfInterrupted();
+  for (const std::string& warning : baked.warnings) printWarning(warning);
   if (!options.layers.empty()) writeLayers(options.layers, layers);
   writePicture(options.output, {layers.size, layers.color}, options.exposureEv);
   return 0;
 }
 
+void addTraceOptions(CLI::App& command, ReferenceOptions& options) {
+  addReferenceShadows(command, options.shadows);
+  command.add_flag("--ao", options.ambientOcclusion,
+                   "Ambient occlusion: what stands around dims the environment's light; its own layer");
+  addValue(command, "--ao-radius", "What is farther away occludes nothing, metres; absent: however far; with --ao",
+           [&](auto& flag, auto& text) {
+             const double metres = parseNumber(flag, text, 0, 1e12);
+             if (!(metres > 0)) throw BadInput(flag, text, "is not above 0");
+             options.ambientOcclusionMetres = static_cast<float>(metres);
+           })
+      ->type_name("M");
+  addValue(command, "--sdf-as",
+           "field: SDF objects as their own bricks; mesh: as the triangles that these were baked from, only marked in "
+           "the layers; absent: field where --sdf names objects, mesh where the scene's extras alone do",
+           [&](auto& flag, auto& text) {
+             if (text != "field" && text != "mesh")
+               throw BadInput(flag, "\"" + text + "\"", "is none of field and mesh");
+             options.sdfTrace = text == "field" ? SdfTrace::Fields : SdfTrace::Meshes;
+           })
+      ->type_name("WHAT");
+  addValue(command, "--samples",
+           "Of a pixel, of each light and of the hemisphere, 1 to 65536; absent: 16, or 1 where --shadows is none or "
+           "hard and nothing is soft; 1 goes through the pixel's centre",
+           [&](auto& flag, auto& text) { options.samples = static_cast<int>(parseWhole(flag, text, 1, 65536)); })
+      ->type_name("N");
+}
+
 void addOptions(CLI::App& command, ReferenceOptions& options) {
   addSceneOptions(command, options.scene);
-  command.footer("--resolution and --cache are taken so that one set of scene flags serves render and reference; here "
-                 "they change nothing, because the source triangles are traced.");
+  command.footer("--resolution, --memory and --cache serve SDF objects that are traced as fields.");
   addPath(command, "-o,--output", "The picture: .exr (linear radiance) or .png (exposed, tone-mapped)", options.output)
       ->required();
   addCameraOptions(command, options.camera);
   addLightOptions(command, options.light);
-  addReferenceShadows(command, options.shadows);
+  addTraceOptions(command, options);
   addExposureOption(command, options.exposureEv);
-  addValue(command, "--samples", "Rays a pixel, 1 to 65536; the first goes through its centre",
-           [&](auto& flag, auto& text) { options.samples = static_cast<int>(parseWhole(flag, text, 1, 65536)); })
-      ->type_name("N");
-  addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", options.layers);
+  addPath(command, "--layers", "Depth, normals, ids, shadows and more as one multi-part .exr", options.layers);
 }
 
 } // namespace
 
 void addReferenceCommand(CLI::App& program, CommandAction& chosen) {
-  CLI::App& command = *program.add_subcommand("reference", "Trace a scene's triangles on the CPU to the same picture");
+  CLI::App& command =
+      *program.add_subcommand("reference", "Trace a scene on the CPU to the same picture, with soft shadows");
   const auto options = std::make_shared<ReferenceOptions>();
   addOptions(command, *options);
   command.callback([options, &chosen] { chosen = [options] { return reference(*options); }; });

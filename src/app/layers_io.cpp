@@ -61,9 +61,9 @@ struct LayerFormat {
 
 constexpr float kMostWholeFloat = 16777216.0f; // 2^24: beyond it floats skip whole numbers
 
-const std::array<LayerFormat, 8>& layerFormats() {
+const std::array<LayerFormat, 9>& layerFormats() {
   static const std::vector<std::string> rgb{"R", "G", "B"}, xyz{"X", "Y", "Z"};
-  static const std::array<LayerFormat, 8> formats{{
+  static const std::array<LayerFormat, 9> formats{{
       {"color", rgb, [](const FrameLayers& l) { return floatsOf(l.color); },
        [](FrameLayers& l, const Floats& f) { l.color = vectorsOf(f); }},
       {"depth",
@@ -84,6 +84,10 @@ const std::array<LayerFormat, 8>& layerFormats() {
        {"KIND"},
        [](const FrameLayers& l) { return floatsOfWhole(l.kind); },
        [](FrameLayers& l, const Floats& f) { l.kind = wholeOf<SurfaceKind>(f, 0.0f, 2.0f); }},
+      {"ao",
+       {"AO"},
+       [](const FrameLayers& l) { return l.ambientOcclusion; },
+       [](FrameLayers& l, const Floats& f) { l.ambientOcclusion = f; }},
       {"steps",
        {"STEPS"},
        [](const FrameLayers& l) { return l.steps; },
@@ -91,6 +95,10 @@ const std::array<LayerFormat, 8>& layerFormats() {
   }};
   return formats;
 }
+
+/// "shadow", "shadow_1", "shadow_2", ...: by the number of the light.
+std::string shadowPartName(std::size_t light) { return light == 0 ? "shadow" : fmt::format("shadow_{}", light); }
+const std::vector<std::string> kShadowChannels{"V"};
 
 /// The part's values with exactly these channels in this order.
 Floats channelsOf(const ImagePart& part, const std::vector<std::string>& wanted) {
@@ -113,14 +121,16 @@ Floats channelsOf(const ImagePart& part, const std::vector<std::string>& wanted)
 void writeLayers(const fs::path& path, const FrameLayers& layers) {
   const std::size_t pixels = std::size_t{layers.size.x} * layers.size.y;
   std::vector<ImagePart> parts;
-  for (const LayerFormat& format : layerFormats()) {
-    Floats values = format.get(layers);
-    if (values.empty()) continue;
-    if (values.size() != pixels * format.channels.size())
-      throw Failure(fmt::format("layer {} has {} values for {} x {} pixels", format.name, values.size(), layers.size.x,
-                                layers.size.y));
-    parts.push_back({format.name, layers.size, format.channels, std::move(values)});
-  }
+  const auto add = [&](const std::string& name, const std::vector<std::string>& channels, Floats values) {
+    if (values.empty()) return;
+    if (values.size() != pixels * channels.size())
+      throw Failure(
+          fmt::format("layer {} has {} values for {} x {} pixels", name, values.size(), layers.size.x, layers.size.y));
+    parts.push_back({name, layers.size, channels, std::move(values)});
+  };
+  for (const LayerFormat& format : layerFormats()) add(format.name, format.channels, format.get(layers));
+  for (std::size_t light = 0; light < layers.shadow.size(); ++light)
+    add(shadowPartName(light), kShadowChannels, layers.shadow[light]);
   if (parts.empty()) throw Failure("no layer to write");
   writeExrParts(path, parts);
 }
@@ -129,19 +139,24 @@ FrameLayers readLayers(const fs::path& path) {
   std::vector<ImagePart> parts = readExrParts(path);
   if (parts.size() == 1 && parts[0].name.empty()) parts[0].name = "color";
   FrameLayers layers;
-  for (const LayerFormat& format : layerFormats()) {
-    const auto part =
-        std::find_if(parts.begin(), parts.end(), [&](const ImagePart& p) { return p.name == format.name; });
-    if (part == parts.end()) continue;
-    const std::string element = fmt::format("part {}", format.name);
+  const auto read = [&](const std::string& name, const std::vector<std::string>& channels, const auto& take) {
+    const auto part = std::find_if(parts.begin(), parts.end(), [&](const ImagePart& p) { return p.name == name; });
+    if (part == parts.end()) return false;
+    const std::string element = fmt::format("part {}", name);
     if (layers.size != glm::uvec2(0) && layers.size != part->size)
       throw BadInput(path.string(), element, "its size differs from the parts before");
     layers.size = part->size;
     try {
-      format.set(layers, channelsOf(*part, format.channels));
+      take(channelsOf(*part, channels));
     } catch (const BadInput& error) {
       throw BadInput(path.string(), element, error.what());
     }
+    return true;
+  };
+  for (const LayerFormat& format : layerFormats())
+    read(format.name, format.channels, [&](const Floats& values) { format.set(layers, values); });
+  while (read(shadowPartName(layers.shadow.size()), kShadowChannels,
+              [&](const Floats& values) { layers.shadow.push_back(values); })) {
   }
   if (layers.size == glm::uvec2(0)) throw BadInput(path.string(), "", "has no layer that is known here");
   return layers;

@@ -8,7 +8,8 @@
 namespace brickfield {
 
 /// Writes the layers that are made, a part each: color (R G B), depth (Z), normal and normal_surface (X Y Z),
-/// albedo (R G B), id (ID), kind (KIND), steps (STEPS); 32-bit floats, which hold node numbers exactly up to 2^24.
+/// albedo (R G B), id (ID), kind (KIND), ao (AO), steps (STEPS), and a part a light, shadow, shadow_1, ... (V); 32-bit
+/// floats, which hold node numbers exactly up to 2^24.
 ///
 /// error     BadInput: the path cannot be written; Failure: a layer whose length is not the size's, or no layer
 /// proved by tests/unit/app/layers_io_test.cpp

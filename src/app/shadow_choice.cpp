@@ -37,12 +37,18 @@ void addRenderShadows(CLI::App& command, ShadowChoice& choice) {
 
 void addReferenceShadows(CLI::App& command, ShadowChoice& choice) {
   choice = ShadowChoice::Traced;
-  addValue(command, "--shadows",
-           "none, or a kind that render takes (field, csm, csm+field): here each means traced ones, the default",
-           [&](auto& flag, auto& text) { choice = isNone(flag, text) ? ShadowChoice::None : ShadowChoice::Traced; })
+  addValue(
+      command, "--shadows",
+      "none and hard take every light for a point; none lets it through everything; a kind that render takes "
+      "(field, csm, csm+field) means here exact ones of whole lights, the default",
+      [&](auto& flag, auto& text) {
+        choice = text == "hard" ? ShadowChoice::Hard : isNone(flag, text) ? ShadowChoice::None : ShadowChoice::Traced;
+      })
       ->type_name("KIND");
 }
 
-const char* shadowName(ShadowChoice choice) { return choice == ShadowChoice::None ? "none" : "traced"; }
+const char* shadowName(ShadowChoice choice) {
+  return choice == ShadowChoice::None ? "none" : choice == ShadowChoice::Hard ? "hard" : "traced";
+}
 
 } // namespace brickfield

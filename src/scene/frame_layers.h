@@ -21,6 +21,8 @@ struct FrameLayers {
   std::vector<glm::vec3> albedo;        ///< linear base colour
   std::vector<std::int32_t> id;         ///< node index; -1 for sky
   std::vector<SurfaceKind> kind;
+  std::vector<std::vector<float>> shadow; ///< a light each: share of it that the surface sees; 1 for sky
+  std::vector<float> ambientOcclusion;    ///< share of the hemisphere that is open, by the cosine; 1 for sky
   std::vector<float>
       steps; ///< trace steps of SDF objects; 0 elsewhere and in the reference, which steps through nothing
 };

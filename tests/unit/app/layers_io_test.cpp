@@ -36,7 +36,9 @@ FrameLayers exampleLayers() {
     layers.id.push_back(i == 2 ? -1 : 16777210 + i);
     layers.kind.push_back(static_cast<SurfaceKind>(i % 3));
     layers.steps.push_back(f * 17);
+    layers.ambientOcclusion.push_back(f / 8);
   }
+  layers.shadow = {{0, 0.25f, 1, 0.5f, 0.75f, 1}, {1, 1, 1, 0, 0, 0.125f}};
   return layers;
 }
 
@@ -50,6 +52,8 @@ void expectEqual(const FrameLayers& a, const FrameLayers& b) {
   EXPECT_EQ(a.id, b.id);
   EXPECT_EQ(a.kind, b.kind);
   EXPECT_EQ(a.steps, b.steps);
+  EXPECT_EQ(a.ambientOcclusion, b.ambientOcclusion);
+  EXPECT_EQ(a.shadow, b.shadow);
 }
 
 std::string refusalOf(const std::filesystem::path& path) {
@@ -102,7 +106,7 @@ TEST(LayersIo, PartsAndChannelsHaveTheirPromisedNames) {
     names.push_back(name);
   }
   EXPECT_THAT(names, ::testing::ElementsAre("color:RGB", "depth:Z", "normal:XYZ", "normal_surface:XYZ", "albedo:RGB",
-                                            "id:ID", "kind:KIND", "steps:STEPS"));
+                                            "id:ID", "kind:KIND", "ao:AO", "steps:STEPS", "shadow:V", "shadow_1:V"));
 }
 
 TEST(LayersIo, SameLayersGiveTheSameBytesAtAnyTime) {

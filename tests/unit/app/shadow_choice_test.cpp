@@ -37,6 +37,8 @@ TEST(ShadowChoice, RenderHasNoneAndSaysSo) {
 TEST(ShadowChoice, ReferenceTracesUnlessToldNotTo) {
   EXPECT_EQ(parse(addReferenceShadows, {}), ShadowChoice::Traced);
   EXPECT_EQ(parse(addReferenceShadows, {"none", "--shadows"}), ShadowChoice::None);
+  EXPECT_EQ(parse(addReferenceShadows, {"hard", "--shadows"}), ShadowChoice::Hard);
+  EXPECT_THAT(refusalOf([] { parse(addRenderShadows, {"hard", "--shadows"}); }), HasSubstr("is none of"));
   for (const char* kind : {"field", "csm", "csm+field"})
     EXPECT_EQ(parse(addReferenceShadows, {kind, "--shadows"}), ShadowChoice::Traced) << kind;
 }
