@@ -27,27 +27,44 @@ SolidWinding::SolidWinding(const TriangleSoup& soup, const MeshTopology& topolog
     WindingNumber winding(isWhole ? *whole : *hierarchy, farRadii);
     part.emplace(Part{std::move(hierarchy), std::move(winding)});
   };
-  makePart(closed_, closedTriangles,
-           signless && !openTriangles.empty() ? WindingNumber::kFarRadii : WindingNumber::kFarRadiiOfWhole);
-  makePart(open_, openTriangles, WindingNumber::kFarRadii);
+  makePart(closed_, closedTriangles, WindingNumber::kFarRadiiOfWhole);
+  if (openTriangles.empty()) return;
+  rims_.emplace(soup, openTriangles);
+  makePart(open_, openTriangles, rims_->areMany() ? WindingNumber::kFarRadii : WindingNumber::kFarRadiiOfWhole);
 }
 
 std::size_t SolidWinding::bytes() const {
   std::size_t sum = 0;
   for (const std::optional<Part>* part : {&closed_, &open_})
     if (*part) sum += (*part)->winding.bytes() + ((*part)->hierarchy ? (*part)->hierarchy->bytes() : 0);
+  if (rims_) sum += rims_->bytes();
   return sum;
 }
 
-double SolidWinding::excess(glm::dvec3 point) const {
+double SolidWinding::excess(glm::dvec3 point, double exactTurns) const {
   const double closed = closed_ ? static_cast<double>(closed_->winding.at(point)) : 0.0;
   if (!open_) return std::abs(closed) >= 0.5 ? HUGE_VAL : -HUGE_VAL;
   if (!signless_ && std::abs(closed) >= 0.5) return HUGE_VAL;
-  const auto excessOf = [&](double open) { return (signless_ ? std::abs(closed + open) : open) - 0.5; };
-  const double excess = excessOf(static_cast<double>(open_->winding.at(point)));
-  if (std::abs(excess) > kUncertainTurns) return excess;
-  const double whole = signless_ && closed_ ? static_cast<double>(closed_->winding.exactlyAt(point)) - closed : 0.0;
-  return excessOf(whole + static_cast<double>(open_->winding.exactlyAt(point)));
+  // But for whole turns the rims know better.
+  const double turns = static_cast<double>(open_->winding.at(point)) + (signless_ ? std::round(closed) : 0.0);
+  const auto excessOf = [&](double sum) { return (signless_ ? std::abs(sum) : sum) - 0.5; };
+  if (std::abs(excessOf(turns)) > (rims_->areMany() ? std::min(kUncertainTurns, exactTurns) : exactTurns))
+    return excessOf(turns);
+  const double fraction = rims_->fractionAt(point);
+  return excessOf(fraction + std::round(turns - fraction));
+}
+
+double SolidWinding::leastExcess(glm::dvec3 point) const {
+  return rims_ && !rims_->areMany() ? std::abs(rims_->fractionAt(point) - 0.5) : 0.0;
+}
+
+bool SolidWinding::isSteady(glm::dvec3 center, double radius) const {
+  if (!rims_) return true;
+  const double change = rims_->mostChange(center, radius);
+  if (change >= 0.5) return false;
+  if (!rims_->areMany()) return std::abs(rims_->fractionAt(center) - 0.5) > change;
+  const double turns = static_cast<double>(open_->winding.at(center));
+  return std::abs(turns - std::floor(turns) - 0.5) > change + kUncertainTurns;
 }
 
 namespace {

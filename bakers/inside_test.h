@@ -2,12 +2,14 @@
 // and are kept out of it (sheets.h).
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "bakers/pseudonormals.h"
 #include "bakers/ray_parity.h"
+#include "bakers/rims.h"
 #include "bakers/winding_number.h"
 
 namespace brickfield {
@@ -25,19 +27,28 @@ public:
   SolidWinding(const TriangleSoup& soup, const MeshTopology& topology, const std::vector<std::uint32_t>& triangles,
                bool signless, const MeshHierarchy* whole = nullptr);
 
-  /// See InsideTest::excess.
-  double excess(glm::dvec3 point) const;
+  /// See InsideTest.
+  double excess(glm::dvec3 point) const { return excess(point, HUGE_VAL); }
+  bool isInside(glm::dvec3 point) const { return excess(point, kUnclearTurns) >= 0; }
+  bool isSteady(glm::dvec3 center, double radius) const;
+  double leastExcess(glm::dvec3 point) const;
+  glm::dvec3 slopeAt(glm::dvec3 point) const { return rims_ ? rims_->slopeAt(point) : glm::dvec3(0.0); }
   /// True where the answer can change without a surface between: open triangles.
   bool hasOpenTriangles() const { return open_.has_value(); }
   /// Of moments, and of hierarchies besides the whole one.
   std::size_t bytes() const;
 
 private:
+  static constexpr double kUnclearTurns = 0.15; ///< what coarse clusters may be off by, and a half
+  /// Exact where it is within so many turns of zero.
+  double excess(glm::dvec3 point, double exactTurns) const;
+
   struct Part {
     std::unique_ptr<MeshHierarchy> hierarchy; ///< nothing where it is the whole one
     WindingNumber winding;
   };
   std::optional<Part> closed_, open_;
+  std::optional<Rims> rims_; ///< of the open ones
   bool signless_;
 };
 
@@ -49,11 +60,19 @@ public:
              const std::string& label);
 
   /// point   soup space
-  bool isInside(glm::dvec3 point) const { return excess(point) >= 0; }
+  bool isInside(glm::dvec3 point) const { return winding_ ? winding_->isInside(point) : excess(point) >= 0; }
   /// How far the point is from changing sides: at least 0 inside. For open triangles their winding number less one
   /// half, which is smooth wherever there is no triangle; infinite (either way) where only a triangle could change the
-  /// answer.
+  /// answer. Near one half to 1e-9; elsewhere, with very many rim edges, to 0.01.
   double excess(glm::dvec3 point) const;
+  /// At most the absolute excess of open triangles, by their rims alone.
+  double leastExcess(glm::dvec3 point) const { return winding_ ? winding_->leastExcess(point) : 0.0; }
+  /// Of excess, per unit of soup space, either way; zero where only triangles change it.
+  glm::dvec3 slopeAt(glm::dvec3 point) const { return winding_ ? winding_->slopeAt(point) : glm::dvec3(0.0); }
+  /// True where points that can be joined within a ball without crossing a triangle are known to have the same answer.
+  bool isSteady(glm::dvec3 center, double radius) const {
+    return isConstant_ || (winding_ && winding_->isSteady(center, radius));
+  }
 
   /// True where points that can be joined without crossing a triangle always have the same answer.
   bool isConstantBetweenSurfaces() const { return isConstant_; }

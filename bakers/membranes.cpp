@@ -1,6 +1,5 @@
-// Mixed cells and their neighbours are measured anew, without cap, and get the smaller of both distances. A neighbour
-// that was empty stays so if the membrane keeps away from it. Cells farther off cannot be nearer to it than the cells
-// between.
+// Mixed cells and their neighbours get the smaller of both distances. A neighbour that was empty stays so if the
+// membrane keeps away from it. Cells farther off cannot be nearer to it than the cells between.
 #include "bakers/membranes.h"
 
 #include <algorithm>
@@ -8,7 +7,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "bakers/patch_graph.h"
+#include "bakers/brick_sampler.h"
+#include "bakers/sample_signs.h"
 
 namespace brickfield {
 
@@ -28,75 +28,114 @@ void forEachAround(const SampleGrid& grid, std::size_t cell, Visit visit) {
 
 constexpr double kFarExcess = 0.45;     // almost no turn or almost a whole one: no hole is near
 constexpr float kTriangleVoxels = 0.1f; // this near a triangle, it is nearer than any membrane that matters
-constexpr int kLatticeEdge = kBrickSamples + 2;
 
-/// The inside test's excess at the samples of a brick and one layer around them: all that slopes over two voxels need.
-class ExcessLattice {
+constexpr double kColoredVoxels = 2.5; // so near a membrane, surface attributes are looked up
+
+/// What is so near to a cell's samples counts; beyond, a brick's codes clamp and an empty cell may stay empty.
+constexpr double kReachVoxels = kSampledRangeVoxels;
+
+struct MembraneBrick {
+  bool isTouched = false; ///< a membrane comes within reach; nothing else is of use where none does
+  BrickSamples samples;
+  SampleSigns inside;
+  float least = 0; ///< distance to a membrane, the reach at most
+};
+
+/// Draws a brick's distances in to the membranes that come near it.
+class MembraneSearch {
 public:
-  ExcessLattice(const SampleGrid& grid, const InsideTest& test, glm::ivec3 brick)
-      : grid_(grid), test_(test), brick_(brick), excesses_(kLatticeEdge * kLatticeEdge * kLatticeEdge) {
-    std::size_t i = 0;
-    for (int z = -1; z <= kBrickSamples; ++z)
-      for (int y = -1; y <= kBrickSamples; ++y)
-        for (int x = -1; x <= kBrickSamples; ++x) excesses_[i++] = test.excess(grid.sample(brick, {x, y, z}));
+  MembraneSearch(const SamplingRequest& request, const InsideTest& test, glm::ivec3 brick)
+      : request_(request), test_(test), brick_(brick) {
+    voxels_.fill(std::numeric_limits<float>::infinity());
   }
 
-  double at(glm::ivec3 sample) const {
-    return excesses_[static_cast<std::size_t>(((sample.z + 1) * kLatticeEdge + sample.y + 1) * kLatticeEdge + sample.x +
-                                              1)];
-  }
-
-  /// Voxels from a sample to the nearest membrane, to first order: excess over slope. Infinite where there is none.
-  ///
-  /// triangleVoxels  distance to the nearest triangle: a slope taken across it would see its jump
-  double membraneVoxels(glm::ivec3 sample, float triangleVoxels) const {
-    const double excess = at(sample);
-    if (std::abs(excess) > kFarExcess || triangleVoxels < kTriangleVoxels) return HUGE_VAL;
-    const double step = triangleVoxels > 1.0f ? 1.0 : 0.9 * static_cast<double>(triangleVoxels);
-    glm::dvec3 slope;
-    for (int axis = 0; axis < 3; ++axis) {
-      glm::ivec3 offset(0);
-      offset[axis] = 1;
-      slope[axis] = triangleVoxels > 1.0f ? at(sample + offset) - at(sample - offset)
-                                          : excessBeside(sample, glm::dvec3(offset) * step) -
-                                                excessBeside(sample, glm::dvec3(offset) * -step);
-    }
-    const double steepness = glm::length(slope) / (2 * step);
-    return std::isfinite(steepness) ? std::abs(excess) / std::max(steepness, 1e-12) : HUGE_VAL;
+  /// returns voxels from each sample to the nearest membrane, to first order; infinite beyond reach
+  const std::array<float, kSamples>& run() {
+    look(SampleCube{});
+    return voxels_;
   }
 
 private:
-  double excessBeside(glm::ivec3 sample, glm::dvec3 offsetVoxels) const {
-    return test_.excess(grid_.sample(brick_, sample) + grid_.voxelSize * offsetVoxels);
+  void look(const SampleCube& cube) {
+    const SampleGrid& grid = request_.grid;
+    const double reach = cube.radiusVoxels() + kReachVoxels;
+    const glm::dvec3 center = grid.origin + grid.voxelSize * (glm::dvec3(kBrickCells * brick_) + cube.centerVoxels());
+    if (!request_.isComplete && cube.side > 2 && test_.isSteady(center, reach * grid.voxelSize)) return;
+    if (cube.side > 2)
+      for (int i = 0; i < 8; ++i) look(cube.eighth(i));
+    else
+      cube.forEach([&](glm::ivec3 sample) { voxels_[sampleIndex(sample)] = voxelsAt(sample); });
+  }
+  float voxelsAt(glm::ivec3 sample) const {
+    constexpr float kNowhere = std::numeric_limits<float>::infinity();
+    const glm::dvec3 point = request_.grid.sample(brick_, sample);
+    const double least = test_.leastExcess(point);
+    if (least > kFarExcess) return kNowhere;
+    const double steepness = std::max(glm::length(test_.slopeAt(point)) * request_.grid.voxelSize, 1e-12);
+    if (!request_.isComplete && least > kReachVoxels * steepness) return kNowhere;
+    const double excess = std::abs(test_.excess(point)); // the membrane may be one of more turns, which is none
+    return excess > kFarExcess ? kNowhere : static_cast<float>(excess / steepness);
   }
 
-  const SampleGrid& grid_;
+  const SamplingRequest& request_;
   const InsideTest& test_;
   glm::ivec3 brick_;
-  std::vector<double> excesses_;
+  std::array<float, kSamples> voxels_;
 };
 
-struct MembraneBrick {
-  BrickSamples samples;
-  std::array<std::uint8_t, kSamples> inside;
-  float least = 0; ///< distance to anything
-};
+class MembraneSampler {
+public:
+  MembraneSampler(const SamplingRequest& request, const InsideTest& test, const LevelSamples& level,
+                  const LevelSigns& signs)
+      : request_(request), test_(test), level_(level), signs_(signs) {}
 
-MembraneBrick measure(const SamplingRequest& request, const InsideTest& test, glm::ivec3 brick) {
-  MembraneBrick result;
-  sampleBrick(request, brick, false, result.samples);
-  const ExcessLattice lattice(request.grid, test, brick);
-  result.least = std::numeric_limits<float>::infinity();
-  for (std::size_t i = 0; i < kSamples; ++i) {
-    const glm::ivec3 sample = sampleOfIndex(i);
-    float& distance = result.samples.solidDistances[i];
-    result.inside[i] = lattice.at(sample) >= 0;
-    distance = std::min(distance, static_cast<float>(lattice.membraneVoxels(sample, distance)));
-    result.least = std::min(result.least, distance);
-    if (request.surfaces->sheets) result.least = std::min(result.least, std::abs(result.samples.sheetDistances[i]));
+  /// mustStore  whether it becomes a brick although no membrane should be near
+  MembraneBrick measure(std::uint32_t cell, bool mustStore) const {
+    const glm::ivec3 brick = level_.grid.brickOfCell(cell);
+    MembraneSearch search(request_, test_, brick);
+    const std::array<float, kSamples>& toMembrane = search.run();
+    MembraneBrick result;
+    result.least = static_cast<float>(kReachVoxels);
+    for (const float voxels : toMembrane) result.least = std::min(result.least, voxels);
+    result.isTouched = mustStore || result.least < static_cast<float>(kReachVoxels);
+    if (!result.isTouched) return result;
+    takeSamples(cell, brick, result);
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      float& distance = result.samples.solidDistances[i];
+      if (distance < kTriangleVoxels || distance <= toMembrane[i]) continue;
+      // The triangle gives the membrane its color; beyond the range it was not looked for.
+      if (distance >= static_cast<float>(kSampledRangeVoxels) && static_cast<double>(toMembrane[i]) < kColoredVoxels)
+        result.samples.solidTriangles[i] =
+            request_.surfaces->solid->nearest(level_.grid.sample(brick, sampleOfIndex(i))).triangle;
+      distance = toMembrane[i];
+    }
+    return result;
   }
-  return result;
-}
+
+private:
+  /// Of the brick that there is; else anew, where no triangle comes into the cell.
+  void takeSamples(std::uint32_t cell, glm::ivec3 brick, MembraneBrick& result) const {
+    const std::uint32_t slot = level_.brickOfCell[cell];
+    if (slot == kNoBrick) {
+      sampleBrick(request_, brick, !request_.isComplete, result.samples);
+      result.inside = askSamples(request_.grid, brick, test_, nullptr);
+      return;
+    }
+    const auto copy = [&](const auto& from, auto& to) {
+      if (!from.empty()) std::copy_n(&from[slot * kSamples], kSamples, to.begin());
+    };
+    copy(level_.solidDistances, result.samples.solidDistances);
+    copy(level_.solidTriangles, result.samples.solidTriangles);
+    copy(level_.sheetDistances, result.samples.sheetDistances);
+    copy(level_.sheetTriangles, result.samples.sheetTriangles);
+    copy(signs_.sampleInside, result.inside);
+  }
+
+  const SamplingRequest& request_;
+  const InsideTest& test_;
+  const LevelSamples& level_;
+  const LevelSigns& signs_;
+};
 
 /// Steps over cells, diagonal ones included, to the nearest of `sources`.
 std::vector<int> stepsFrom(const SampleGrid& grid, const std::vector<std::uint32_t>& sources) {
@@ -126,14 +165,16 @@ void insertMembranes(const SamplingRequest& request, const InsideTest& test, Lev
   }
   request.admit(level.brickCount() + cells.size());
   std::vector<MembraneBrick> bricks(cells.size());
+  const MembraneSampler sampler(request, test, level, signs);
   tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
-    bricks[i] = measure(request, test, request.grid.brickOfCell(cells[i]));
+    bricks[i] = sampler.measure(cells[i], steps[cells[i]] == 0);
     request.done(0);
   });
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::uint32_t cell = cells[i];
     float& bound = level.cellBounds[cell];
     bound = std::min(bound, boundBySamples(bricks[i].least));
+    if (!bricks[i].isTouched) continue;
     if (steps[cell] > 0 && level.brickOfCell[cell] == kNoBrick && bound > kTouchVoxels) continue;
     storeBrick(request, cell, bricks[i].samples, level);
     signs.sampleInside.resize(level.brickCount() * kSamples);

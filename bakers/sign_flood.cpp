@@ -1,4 +1,4 @@
-// Votes on regions (closed meshes) or on patches (open ones).
+// Votes on regions of steady cells; questions in others.
 #include "bakers/sign_flood.h"
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "bakers/patch_graph.h"
+#include "bakers/sample_signs.h"
 
 namespace brickfield {
 
@@ -33,19 +34,24 @@ private:
   std::vector<std::uint32_t> inside_, all_;
 };
 
-/// For closed meshes: patches that meet are one region. Up to kVotes patches of each region vote, spread over its list,
+/// Patches of steady cells that meet are one region. Up to kVotes patches of each region vote, spread over its list,
 /// and must be unanimous.
-std::vector<PatchSign> signsByRegion(const PatchGraph& graph, const InsideTest& test) {
+///
+/// isVoter  a patch: it exists, in a steady cell
+std::vector<PatchSign> signsByRegion(const PatchGraph& graph, const InsideTest& test,
+                                     const std::vector<std::uint8_t>& isVoter) {
   const std::uint32_t count = graph.patchCount();
   DisjointSets regions(count);
-  graph.forEachMeeting([&](std::uint32_t a, std::uint32_t b) { regions.unite(a, b); });
+  graph.forEachMeeting([&](std::uint32_t a, std::uint32_t b) {
+    if (isVoter[a] && isVoter[b]) regions.unite(a, b);
+  });
   std::vector<std::uint32_t> regionOfPatch(count), patchCounts(count, 0), seen(count, 0), voters;
   for (std::uint32_t patch = 0; patch < count; ++patch) {
     regionOfPatch[patch] = regions.rootOf(patch);
-    patchCounts[regionOfPatch[patch]] += graph.exists(patch);
+    patchCounts[regionOfPatch[patch]] += isVoter[patch];
   }
   for (std::uint32_t patch = 0; patch < count; ++patch) {
-    if (!graph.exists(patch)) continue;
+    if (!isVoter[patch]) continue;
     const std::uint64_t total = patchCounts[regionOfPatch[patch]], number = seen[regionOfPatch[patch]]++;
     if (total <= kVotes || number * kVotes / total != (number + 1) * kVotes / total) voters.push_back(patch);
   }
@@ -59,101 +65,94 @@ std::vector<PatchSign> signsByRegion(const PatchGraph& graph, const InsideTest& 
   return signs;
 }
 
-/// For open meshes: any region may lead through a hole to the other side. So each patch votes for itself, by a lattice
-/// of its samples (cells: their corners) and its deepest point; and where neighbours in one sample disagree, both are
-/// mixed.
-class PatchVotes {
+/// Decides regions together and unsteady cells sample by sample.
+class SignFlood {
 public:
-  PatchVotes(const LevelSamples& level, const PatchGraph& graph, const InsideTest& test)
-      : level_(level), graph_(graph), test_(test), signs_(graph.patchCount(), PatchSign::Outside) {}
+  SignFlood(const LevelSamples& level, const InsideTest& test)
+      : level_(level), test_(test), graph_(level), isSteady_(findSteadyCells(level.grid, test)) {
+    isVoter_.resize(graph_.patchCount());
+    for (std::size_t cell = 0; cell < isSteady_.size(); ++cell)
+      if (level.brickOfCell[cell] == kNoBrick) isVoter_[cell] = isSteady_[cell];
+    for (std::size_t b = 0; b < level.brickCount(); ++b)
+      for (const std::uint16_t deepest : graph_.brick(b).deepest)
+        isVoter_[graph_.patchOf(b, deepest)] = isSteady_[level.cellOfBrick[b]];
+  }
 
-  std::vector<PatchSign> run() {
-    askCorners();
-    tbb::parallel_for(std::size_t{0}, level_.grid.cellCount(), [&](std::size_t cell) {
+  LevelSigns run() {
+    patchSigns_ = signsByRegion(graph_, test_, isVoter_);
+    LevelSigns signs;
+    signs.cellInside.resize(level_.grid.cellCount());
+    signs.sampleInside.resize(level_.brickCount() * kSamples);
+    tbb::parallel_for(std::size_t{0}, signs.cellInside.size(), [&](std::size_t cell) {
       if (level_.brickOfCell[cell] == kNoBrick)
-        voteOnCell(cell);
+        signs.cellInside[cell] = signOfCell(cell);
       else
-        voteOnBrick(level_.brickOfCell[cell], level_.grid.brickOfCell(cell));
+        signBrick(level_.brickOfCell[cell], &signs.sampleInside[level_.brickOfCell[cell] * kSamples]);
     });
-    std::vector<PatchSign> result = signs_;
-    graph_.forEachMeeting([&](std::uint32_t a, std::uint32_t b) {
-      if (signs_[a] != signs_[b] && signs_[a] != PatchSign::Mixed && signs_[b] != PatchSign::Mixed)
-        result[a] = result[b] = PatchSign::Mixed;
-    });
-    return result;
+    signs.mixedCells = findMixedCells();
+    return signs;
   }
 
 private:
-  /// Asks at the corners of all cells, once for the eight that share one.
-  void askCorners() {
-    const glm::ivec3 corners = level_.grid.brickCounts + 1;
-    cornerInside_.resize(static_cast<std::size_t>(corners.x * corners.y * corners.z));
-    tbb::parallel_for(std::size_t{0}, cornerInside_.size(), [&](std::size_t i) {
-      const auto index = static_cast<int>(i);
-      const glm::ivec3 corner(index % corners.x, index / corners.x % corners.y, index / (corners.x * corners.y));
-      cornerInside_[i] = test_.isInside(level_.grid.sample(corner, glm::ivec3(0)));
-    });
-  }
-
-  void voteOnCell(std::size_t cell) {
-    Ballot ballot(1);
-    const glm::ivec3 brick = level_.grid.brickOfCell(cell), corners = level_.grid.brickCounts + 1;
-    ballot.cast(0, test_.isInside(level_.grid.brickCenter(brick)));
-    for (int i = 0; i < 8; ++i) {
-      const glm::ivec3 corner = brick + glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
-      ballot.cast(0, cornerInside_[static_cast<std::size_t>((corner.z * corners.y + corner.y) * corners.x + corner.x)]);
+  std::uint8_t signOfCell(std::size_t cell) {
+    const glm::ivec3 brick = level_.grid.brickOfCell(cell);
+    if (!isSteady_[cell]) {
+      Ballot ballot(1);
+      for (const std::uint8_t sign : askSamples(level_.grid, brick, test_, nullptr)) ballot.cast(0, sign);
+      patchSigns_[cell] = ballot.signOf(0);
     }
-    signs_[cell] = ballot.signOf(0);
+    return patchSigns_[cell] == PatchSign::Mixed ? test_.isInside(level_.grid.brickCenter(brick))
+                                                 : patchSigns_[cell] == PatchSign::Inside;
   }
 
-  void voteOnBrick(std::uint32_t slot, glm::ivec3 brick) {
-    constexpr std::array<int, 4> kLattice = {0, 2, 5, 7}; // of the eight samples along an axis
-    const BrickPatches& patches = graph_.brick(slot);
+  void signBrick(std::size_t b, std::uint8_t* sampleInside) {
+    const glm::ivec3 brick = level_.grid.brickOfCell(level_.cellOfBrick[b]);
+    if (isSteady_[level_.cellOfBrick[b]]) {
+      for (std::size_t i = 0; i < kSamples; ++i) {
+        const PatchSign sign = patchSigns_[graph_.patchOf(b, i)];
+        sampleInside[i] = sign == PatchSign::Mixed ? test_.isInside(level_.grid.sample(brick, sampleOfIndex(i)))
+                                                   : sign == PatchSign::Inside;
+      }
+      return;
+    }
+    const SampleSigns asked = askSamples(level_.grid, brick, test_, &level_.solidDistances[b * kSamples]);
+    std::copy(asked.begin(), asked.end(), sampleInside);
+    const BrickPatches& patches = graph_.brick(b);
     Ballot ballot(patches.deepest.size());
-    const auto vote = [&](std::size_t index) {
-      ballot.cast(patches.patchOfSample[index], test_.isInside(level_.grid.sample(brick, sampleOfIndex(index))));
-    };
-    for (const int z : kLattice)
-      for (const int y : kLattice)
-        for (const int x : kLattice) vote(sampleIndex({x, y, z}));
-    for (const std::uint16_t deepest : patches.deepest) vote(deepest);
+    for (std::size_t i = 0; i < kSamples; ++i) ballot.cast(patches.patchOfSample[i], asked[i]);
     for (std::size_t patch = 0; patch < patches.deepest.size(); ++patch)
-      signs_[graph_.patchOf(slot, patches.deepest[patch])] = ballot.signOf(patch);
+      patchSigns_[graph_.patchOf(b, patches.deepest[patch])] = ballot.signOf(patch);
+  }
+
+  /// Cells with patches of two signs, and those where patches that meet disagree.
+  std::vector<std::uint32_t> findMixedCells() const {
+    std::vector<std::uint8_t> isMixed(graph_.patchCount(), 0);
+    for (std::uint32_t patch = 0; patch < graph_.patchCount(); ++patch)
+      isMixed[patch] = graph_.exists(patch) && patchSigns_[patch] == PatchSign::Mixed;
+    if (!test_.isConstantBetweenSurfaces())
+      graph_.forEachMeeting([&](std::uint32_t a, std::uint32_t b) {
+        if (patchSigns_[a] != patchSigns_[b] && patchSigns_[a] != PatchSign::Mixed &&
+            patchSigns_[b] != PatchSign::Mixed)
+          isMixed[a] = isMixed[b] = 1;
+      });
+    std::vector<std::uint32_t> cells;
+    for (std::uint32_t patch = 0; patch < graph_.patchCount(); ++patch)
+      if (isMixed[patch]) cells.push_back(graph_.cellOf(patch));
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    return cells;
   }
 
   const LevelSamples& level_;
-  const PatchGraph& graph_;
   const InsideTest& test_;
-  std::vector<PatchSign> signs_;
-  std::vector<std::uint8_t> cornerInside_; ///< a corner of the cells, x fastest
+  const PatchGraph graph_;
+  const std::vector<std::uint8_t> isSteady_; ///< a cell
+  std::vector<std::uint8_t> isVoter_;        ///< a patch
+  std::vector<PatchSign> patchSigns_;
 };
 
 } // namespace
 
-LevelSigns floodSigns(const LevelSamples& level, const InsideTest& test) {
-  const PatchGraph graph(level);
-  const std::vector<PatchSign> patchSigns =
-      test.isConstantBetweenSurfaces() ? signsByRegion(graph, test) : PatchVotes(level, graph, test).run();
-  const auto isInside = [&](std::uint32_t patch, glm::dvec3 point) {
-    return patchSigns[patch] == PatchSign::Mixed ? test.isInside(point) : patchSigns[patch] == PatchSign::Inside;
-  };
-  LevelSigns signs;
-  signs.cellInside.resize(level.grid.cellCount());
-  tbb::parallel_for(std::size_t{0}, signs.cellInside.size(), [&](std::size_t cell) {
-    const auto patch = static_cast<std::uint32_t>(cell);
-    if (graph.exists(patch)) signs.cellInside[cell] = isInside(patch, graph.pointOf(patch));
-  });
-  signs.sampleInside.resize(level.brickCount() * kSamples);
-  tbb::parallel_for(std::size_t{0}, level.brickCount(), [&](std::size_t b) {
-    const glm::ivec3 brick = level.grid.brickOfCell(level.cellOfBrick[b]);
-    for (std::size_t i = 0; i < kSamples; ++i)
-      signs.sampleInside[b * kSamples + i] = isInside(graph.patchOf(b, i), level.grid.sample(brick, sampleOfIndex(i)));
-  });
-  for (std::uint32_t patch = 0; patch < graph.patchCount(); ++patch)
-    if (graph.exists(patch) && patchSigns[patch] == PatchSign::Mixed) signs.mixedCells.push_back(graph.cellOf(patch));
-  std::sort(signs.mixedCells.begin(), signs.mixedCells.end());
-  signs.mixedCells.erase(std::unique(signs.mixedCells.begin(), signs.mixedCells.end()), signs.mixedCells.end());
-  return signs;
-}
+LevelSigns floodSigns(const LevelSamples& level, const InsideTest& test) { return SignFlood(level, test).run(); }
 
 } // namespace brickfield

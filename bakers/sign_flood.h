@@ -1,6 +1,6 @@
 // Signs of a level: parts of space that no triangle divides have one sign, found by flooding over samples and decided
-// by several inside tests each. Open meshes may change sign without a triangle between: there each brick's patches are
-// decided by themselves, and sample by sample where their tests disagree.
+// by several inside tests each. Open meshes may change sign without a triangle between: where their rims do not rule
+// that out (rims.h), cells are decided by themselves, sample by sample where it has to be (sample_signs.h).
 #pragma once
 
 #include "bakers/inside_test.h"

@@ -25,6 +25,8 @@ std::optional<double> SolidThickness::behind(std::uint32_t triangle, glm::dvec3 
   if (!before && !after) return probe;
   const glm::dvec3 inwards = after ? -normal : normal;
   const double radius = 0.5 * limit;
+  const double fromEmpty = glm::length(point + radius * inwards - known.emptyCenter);
+  if (fromEmpty + (1 - kBallSlack) * radius < known.emptyRadius) return HUGE_VAL;
   if (solid_->closest(point + radius * inwards, (1 - kBallSlack) * radius, triangle).triangle == kNoTriangle)
     return HUGE_VAL;
   if (!inside_->isInside(point + radius * inwards)) return endBetween(point, inwards, {probe, radius});

@@ -12,9 +12,11 @@
 
 namespace brickfield {
 
-/// Whether the sides of a triangle are inside, where that is known.
+/// Whether the sides of a triangle are inside, where that is known, and a ball that no triangle comes into.
 struct KnownSides {
   std::optional<bool> before, behind;
+  glm::dvec3 emptyCenter{0.0};
+  double emptyRadius = 0;
 };
 
 class SolidThickness {

@@ -70,6 +70,7 @@ double growthVoxels(const SolidThickness& thickness, std::uint32_t triangle, glm
   const double height = glm::dot(sample - on, normal);
   const double over = std::max(kOverFace * glm::length(sample - on), kOffSurfaceVoxels * voxelSize);
   KnownSides known;
+  known.emptyCenter = sample, known.emptyRadius = glm::length(sample - on);
   if (height > over) known.before = isInside;
   if (height < -over) known.behind = isInside;
   const double behind = thickness.behind(triangle, place, limit, known).value_or(limit);

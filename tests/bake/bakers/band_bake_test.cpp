@@ -10,9 +10,10 @@
 namespace brickfield::test {
 namespace {
 
-constexpr double kMostError = 1e-5;    // voxels, before coding
-constexpr double kBruteWork = 2e7;     // samples times triangles
-constexpr double kHierarchyBytes = 95; // a triangle, with moments
+constexpr double kMostError = 1e-5;     // voxels, before coding
+constexpr double kBruteWork = 2e7;      // samples times triangles
+constexpr double kRoundingTurns = 1e-7; // so near one half, the brute force itself may err
+constexpr double kHierarchyBytes = 95;  // a triangle, with moments
 
 BakeSettings windingAt(int resolution, int bits) {
   BakeSettings settings;
@@ -57,12 +58,13 @@ TEST(BandBake, OpenMeshesAreInsideWhereTheyWrapByHalf) {
                            "plane_holes_17k.glb"}) {
     BRICKFIELD_NEEDS_DATA(name);
     SCOPED_TRACE(name);
-    const BandBake band = bakeBand(FileCase(name).input(), windingAt(64, 8));
-    EXPECT_GT(band.stats.openEdges, 0u);
-    const BandAccuracy accuracy = measureBand(band, affordable(band));
-    // Patches beside a rim are decided by some of their samples: where the turns come close to one half, others differ.
-    EXPECT_LE(static_cast<double>(accuracy.wrongSigns), 0.0015 * static_cast<double>(accuracy.samples));
-    EXPECT_LE(accuracy.farthestTurns, 0.15);
+    const FileCase file(name);
+    for (const int resolution : {64, 128}) {
+      const BandBake band = bakeBand(file.input(), windingAt(resolution, 8));
+      EXPECT_GT(band.stats.openEdges, 0u);
+      const BandAccuracy accuracy = measureBand(band, affordable(band));
+      EXPECT_LE(accuracy.farthestTurns, kRoundingTurns) << accuracy.wrongSigns << " at " << resolution;
+    }
   }
 }
 

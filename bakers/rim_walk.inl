@@ -1,0 +1,94 @@
+// Sums over rim edges, four at a time. No header: rims.cpp includes it once for each set of instructions. Operations
+// are single and rounded, so all sets give the same.
+
+using Quad = double __attribute__((vector_size(32)));
+
+#define QUAD_INLINE [[gnu::always_inline]] inline
+
+struct Quad3 {
+  Quad x, y, z;
+};
+
+QUAD_INLINE Quad quad(double v) { return Quad{v, v, v, v}; }
+QUAD_INLINE Quad quad(const double (&lanes)[4]) { return Quad{lanes[0], lanes[1], lanes[2], lanes[3]}; }
+QUAD_INLINE Quad3 fromPoint(const double (&lanes)[3][4], glm::dvec3 point) {
+  return {quad(lanes[0]) - quad(point.x), quad(lanes[1]) - quad(point.y), quad(lanes[2]) - quad(point.z)};
+}
+QUAD_INLINE Quad dotOf(const Quad3& a, const Quad3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+QUAD_INLINE Quad3 crossOf(const Quad3& a, const Quad3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+QUAD_INLINE Quad3 times(Quad s, const Quad3& a) { return {s * a.x, s * a.y, s * a.z}; }
+QUAD_INLINE Quad rootOf(Quad v) {
+#if defined(__AVX__)
+  return __builtin_ia32_sqrtpd256(v);
+#else
+  return Quad{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+#endif
+}
+/// 1 / |a|; large where there is no length.
+QUAD_INLINE Quad oneOverLength(const Quad3& a) {
+  const Quad squared = dotOf(a, a);
+  return quad(1.0) / rootOf(squared > quad(1e-200) ? squared : quad(1e-200));
+}
+QUAD_INLINE double sumOf(Quad v) { return ((v[0] + v[1]) + v[2]) + v[3]; }
+
+/// Multiplies the numbers whose arguments are half the solid angles of the triangles from the apex to the edges.
+inline void multiplyFan(std::span<const Rims::EdgeQuad> edges, glm::dvec3 apex, glm::dvec3 point, FanSums& sums) {
+  constexpr std::size_t kUnscaled = 6; // each is at most four times the product of three lengths
+  const glm::dvec3 toApex = apex - point;
+  const Quad3 c{quad(toApex.x), quad(toApex.y), quad(toApex.z)};
+  const Quad lengthC = quad(glm::length(toApex));
+  Quad real = quad(1.0), imaginary = quad(0.0);
+  std::size_t count = 0;
+  for (const Rims::EdgeQuad& edge : edges) {
+    const Quad3 a = fromPoint(edge.from, point), b = fromPoint(edge.to, point);
+    const Quad lengthA = rootOf(dotOf(a, a)), lengthB = rootOf(dotOf(b, b));
+    const Quad x = (lengthA * lengthB + dotOf(a, b)) * lengthC + dotOf(b, c) * lengthA + dotOf(c, a) * lengthB;
+    const Quad y = dotOf(c, crossOf(a, b));
+    const Quad product = real * x - imaginary * y;
+    imaginary = real * y + imaginary * x;
+    real = product;
+    if (++count % kUnscaled != 0) continue;
+    const Quad lengthSquared = real * real + imaginary * imaginary;
+    const Quad scale = quad(1.0) / rootOf(lengthSquared > quad(1e-200) ? lengthSquared : quad(1e-200));
+    real *= scale, imaginary *= scale;
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double scale = 1.0 / std::max(std::sqrt(real[i] * real[i] + imaginary[i] * imaginary[i]), 1e-200);
+    sums.real[i] = scale * real[i], sums.imaginary[i] = scale * imaginary[i];
+  }
+}
+
+/// returns false where an edge comes into the ball
+inline bool addField(std::span<const Rims::EdgeQuad> edges, glm::dvec3 point, double radius, FieldSums& sums) {
+  const Quad zero = quad(0.0), one = quad(1.0);
+  Quad3 slope{zero, zero, zero};
+  Quad squares = zero, cubes = zero;
+  for (const Rims::EdgeQuad& edge : edges) {
+    const Quad3 a = fromPoint(edge.from, point), b = fromPoint(edge.to, point);
+    const Quad3 along{b.x - a.x, b.y - a.y, b.z - a.z};
+    const Quad lengthSquared = dotOf(along, along);
+    Quad t = (zero - dotOf(a, along)) / (lengthSquared > quad(1e-200) ? lengthSquared : quad(1e-200));
+    t = t < zero ? zero : t;
+    t = t > one ? one : t;
+    const Quad3 nearest{a.x + t * along.x, a.y + t * along.y, a.z + t * along.z};
+    const Quad away = rootOf(dotOf(nearest, nearest)) - quad(radius);
+    if (away[0] <= 0 || away[1] <= 0 || away[2] <= 0 || away[3] <= 0) return false;
+    const Quad oneOverAway = one / away, length = rootOf(lengthSquared);
+    // Of an edge in one point or of an endless one, whichever is less.
+    const Quad most = length * oneOverAway < quad(2.0) ? length * oneOverAway : quad(2.0);
+    squares += most * oneOverAway;
+    cubes += most * oneOverAway * oneOverAway;
+    const Quad oneOverA = oneOverLength(a), oneOverB = oneOverLength(b), inverse = oneOverA * oneOverB;
+    const Quad straight = one + dotOf(a, b) * inverse;
+    const Quad weight = (oneOverA + oneOverB) * inverse / (straight > quad(1e-200) ? straight : quad(1e-200));
+    const Quad3 turn = crossOf(a, b);
+    slope.x += weight * turn.x, slope.y += weight * turn.y, slope.z += weight * turn.z;
+  }
+  sums.slope += glm::dvec3(sumOf(slope.x), sumOf(slope.y), sumOf(slope.z));
+  sums.inverseSquares += sumOf(squares), sums.inverseCubes += sumOf(cubes);
+  return true;
+}
+
+#undef QUAD_INLINE
