@@ -150,7 +150,7 @@ TEST(AreaLights, SphereHasThePenumbraOfItsOutline) {
       const FrameLayers layers =
           trace(edgeScene(height, 8 * height), view, lightOf(ballAt({0, 0, kLamp}, radius)), layersOf(256));
       // The plane holds the edge and the point on the ground, so y changes the cap's size and the plane's angle.
-      double meanError = 0, worst = 0;
+      double meanError = 0, worst = 0, contrast = 0, expectedContrast = 0;
       int pixels = 0;
       for (std::size_t i = 0; i < layers.depth.size(); ++i) {
         if (layers.id[i] != 0) continue;
@@ -160,12 +160,15 @@ TEST(AreaLights, SphereHasThePenumbraOfItsOutline) {
         const double share = cutCap(std::asin(radius / glm::length(towards)), offset);
         const double error = layers.shadow[0][i] - share;
         meanError += error, worst = std::max(worst, std::abs(error));
-        pixels += share > 0.0 && share < 1.0;
+        if (share <= 0.0 || share >= 1.0) continue;
+        contrast += (share - 0.5) * (layers.shadow[0][i] - 0.5), expectedContrast += (share - 0.5) * (share - 0.5);
+        ++pixels;
       }
       SCOPED_TRACE(std::to_string(radius) + " m, edge at " + std::to_string(height));
       ASSERT_GT(pixels, 60);
       EXPECT_NEAR(meanError / pixels, 0.0, 0.003);
       EXPECT_LT(worst, 0.04);
+      EXPECT_NEAR(contrast / expectedContrast, 1.0, 0.01) << "wider penumbrae have less";
     }
 }
 

@@ -127,6 +127,28 @@ TEST(ReferenceFields, FieldsDoNotShadowThemselves) {
   }
 }
 
+// Codes of 8 bits make steps across a slanted plane; light at 3 degrees and less would catch on them.
+TEST(ReferenceFields, FlatFieldsAreLitEvenly) {
+  const glm::vec3 normal = glm::normalize(glm::vec3(0.13f, -0.29f, 1));
+  const auto distance = [&](glm::vec3 point) { return planeDistance(point, normal, 0.02f); };
+  FieldScene objects;
+  objects.fields[0] = makeAnalyticField(distance, {glm::vec3(-1, -1, -0.6f), glm::vec3(1, 1, 0.6f)}, 64, 8, 3);
+  objects.scene.nodes[1].translation = {0, 0, -3};
+  const glm::vec3 along = glm::normalize(glm::cross(glm::vec3(0.7f, 0.4f, 0), normal)); // the sun stands where it rises
+  for (const float degrees : {1.5f, 3.0f}) {
+    Lighting lighting = darkness();
+    lighting.lights.push_back(sunAlong(along - std::tan(glm::radians(degrees)) * normal));
+    const FrameLayers layers = objects.trace(viewFrom(3.0f * normal, {0, 0, 0}, {64, 64}), lighting, layersOf(1));
+    int hits = 0, dark = 0;
+    for (std::size_t i = 0; i < layers.id.size(); ++i) {
+      hits += layers.id[i] == 0;
+      dark += layers.id[i] == 0 && layers.shadow[0][i] < 1.0f;
+    }
+    ASSERT_GT(hits, 1000);
+    EXPECT_EQ(dark, 0) << "of " << hits << " at " << degrees << " degrees";
+  }
+}
+
 // Ground at distance x from where a unit sphere stands on it: the sphere's direction cosine over d², with d² = x² + 1,
 // is what it hides, as long as it stands wholly above the horizon: it touches it here. sin² of the cone times the
 // cosine of its axis is 1 / d² * 1 / d (Nusselt).

@@ -50,7 +50,7 @@ TEST(ReferenceSamples, PurposesAreIndependent) {
     double xx = 0, xy = 0;
     for (std::uint32_t i = 0; i < 40000; ++i) {
       const PixelSamples samples({i % 200, i / 200}, 9, 4);
-      const glm::vec2 a = samples.point(1, first), b = samples.point(1, second, 2);
+      const glm::vec2 a = samples.point(1, first), b = samples.point(1, second);
       xx += a.x * b.x, xy += a.x * b.y;
     }
     EXPECT_NEAR(xx / 40000, 0.25, 0.0055);

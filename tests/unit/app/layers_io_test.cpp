@@ -123,7 +123,7 @@ TEST(LayersIo, RefusesFilesThatAreNone) {
   EXPECT_THAT(refusalOf(folder.path()), HasSubstr("not a regular file"));
   EXPECT_THAT(refusalOf(folder.write("text.exr", "no picture")),
               AllOf(HasSubstr("text.exr"), HasSubstr("not a readable")));
-  writeExrParts(folder / "other.exr", {{"shadow", {1, 1}, {"V"}, {1.0f}}, {"more", {1, 1}, {"V"}, {1.0f}}});
+  writeExrParts(folder / "other.exr", {{"other", {1, 1}, {"V"}, {1.0f}}, {"more", {1, 1}, {"V"}, {1.0f}}});
   EXPECT_THAT(refusalOf(folder / "other.exr"), HasSubstr("no layer"));
 }
 
