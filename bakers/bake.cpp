@@ -165,7 +165,10 @@ private:
       surfaces_.slabs.emplace(soup_, *sheetHierarchy_, slabRequest());
     }
     if (split.solid.empty()) return;
-    timed(stats_.stages.hierarchy, [&] { surfaces_.solid.emplace(solidHierarchy_.emplace(soup_, split.solid)); });
+    timed(stats_.stages.hierarchy, [&] {
+      surfaces_.solid.emplace(split.solidHierarchy ? solidHierarchy_.emplace(std::move(*split.solidHierarchy))
+                                                   : solidHierarchy_.emplace(soup_, split.solid));
+    });
     const StageClock clock(stats_.stages.sign);
     inside_.emplace(soup_, topology_, *solidHierarchy_, settings_.sign, input_.label);
     thickness_.emplace(soup_, topology_, *surfaces_.solid, *inside_);

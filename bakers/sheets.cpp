@@ -75,11 +75,11 @@ private:
 /// date by those of the triangles that were taken out since.
 class SheetJudge {
 public:
-  SheetJudge(const TriangleSoup& soup, const SheetRequest& request, const MeshTopology& topology,
-             const std::vector<std::uint32_t>& closed, const std::vector<std::uint32_t>& open)
+  SheetJudge(const TriangleSoup& soup, const SheetRequest& request, SolidWinding closed,
+             const std::vector<std::uint32_t>& open)
       : soup_(soup),
         request_(request),
-        closed_(soup, topology, closed, false),
+        closed_(std::move(closed)),
         firstPlace_(soup.triangles.size()),
         partsSeen_(soup.triangles.size(), 0) {
     std::uint32_t placeCount = 0;
@@ -218,11 +218,16 @@ SolidsAndSheets findSheets(const TriangleSoup& soup, const MeshTopology& topolog
   }
   if (open.empty() && flatPairs.empty()) return result;
 
-  SheetJudge judge(soup, request, topology, result.solid, open);
+  std::optional<MeshHierarchy> closedHierarchy;
+  if (!result.solid.empty()) closedHierarchy.emplace(soup, result.solid);
+  const std::size_t closedCount = result.solid.size();
+  SolidWinding closed(soup, topology, result.solid, false, closedHierarchy ? &*closedHierarchy : nullptr);
+  SheetJudge judge(soup, request, std::move(closed), open);
   ComponentSorter(soup, topology, request, judge).sort(std::move(open), result);
   const std::vector<TriangleLook> ofPairs = judge.look(flatPairs);
   for (std::size_t i = 0; i < flatPairs.size(); ++i)
     if (ofPairs[i].isOpen) result.sheets.push_back(flatPairs[i]);
+  if (result.solid.size() == closedCount) result.solidHierarchy = std::move(closedHierarchy);
   std::sort(result.solid.begin(), result.solid.end());
   std::sort(result.sheets.begin(), result.sheets.end());
   return result;

@@ -2,8 +2,10 @@
 // would lose them, or fill the room that they stand around, so they are given a thickness instead.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "bakers/mesh_hierarchy.h"
 #include "bakers/mesh_topology.h"
 
 namespace brickfield {
@@ -12,6 +14,7 @@ namespace brickfield {
 struct SolidsAndSheets {
   std::vector<std::uint32_t> solid;
   std::vector<std::uint32_t> sheets;
+  std::optional<MeshHierarchy> solidHierarchy; ///< of the solid ones, where the look at the others took one
 };
 
 struct SheetRequest {
