@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scene/pose.h"
 #include "tests/unit/scene/gltf_builder.h"
 
 namespace brickfield::test {
@@ -145,6 +146,7 @@ TEST(GltfNode, LightsOfEveryKind) {
 TEST(GltfNode, ExtrasGiveLightsASize) {
   GltfBuilder builder = withNodes(R"([{"extensions":{"KHR_lights_punctual":{"light":2}}}])");
   builder.root["extensionsUsed"] = {"KHR_lights_punctual"};
+  builder.root["scenes"] = json::parse(R"([{"nodes":[0]}])");
   json& lights = builder.root["extensions"]["KHR_lights_punctual"]["lights"];
   const json good = json::parse(R"([
     {"type":"directional","extras":{"brickfield":{"angle":2}}},
@@ -159,6 +161,7 @@ TEST(GltfNode, ExtrasGiveLightsASize) {
   EXPECT_EQ(scene.lights[2].kind, LightKind::Rectangle);
   EXPECT_EQ(scene.lights[2].size, glm::vec2(0.5f, 2));
   const Pose pose = poseScene(scene, {});
+  ASSERT_EQ(pose.lights.size(), 1u);
   EXPECT_EQ(pose.lights[0].rightWorld, glm::vec3(1, 0, 0)) << "along the node's X";
 
   for (const auto& [light, settings, reason] :
