@@ -198,7 +198,7 @@ TEST_F(CommandLine, BakesInspectsTracesAndCompares) {
   EXPECT_THAT(over.output, HasSubstr("over tolerance"));
   EXPECT_TRUE(fs::exists(folder_ / "heat.png"));
   expectRefused({"compare", "a.exr", "small.exr"}, {"small.exr", "size"});
-  expectRefused({"compare", "la.exr", "lb.exr", "--layer", "shadow"}, {"la.exr", "shadow"});
+  expectRefused({"compare", "la.exr", "lb.exr", "--layer", "glow"}, {"la.exr", "glow"});
 }
 
 TEST_F(CommandLine, ScenesAreNamedAsTheyWereTyped) {
