@@ -1,4 +1,4 @@
-// Deferred light of the whole frame: direct light without shadows, image-based light, emission, sky.
+// Deferred light of the whole frame: direct light, image-based light, emission, sky.
 #include "lib/brdf.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer.glsl"
@@ -9,7 +9,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = kLightBinding) readonly buffer LightBlock { LightRow lights[]; };
 layout(binding = kEnvironmentUnit) uniform sampler2D environment_prefiltered;
 layout(binding = kEnvironmentBrdfUnit) uniform sampler2D environment_brdf;
+layout(binding = kShadowUnit) uniform sampler2D shadow;
 layout(binding = 0, rgba16f) writeonly uniform image2D color;
+
+uniform int shadowedLights; // the first ones
 
 // Irradiance that reaches a point facing the light, and the direction to it.
 vec3 lightAt(LightRow light, vec3 pointWorld, out vec3 toLight) {
@@ -67,9 +70,11 @@ void main() {
     vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).xy);
     vec3 toViewer = -directionWorld;
     radiance = texelFetch(emission, pixel, 0).rgb + environmentLight(surface, normal, toViewer, properties.b);
-    for (uint i = 0u; i < frame.size.z; ++i) {
+    vec4 visible = texelFetch(shadow, pixel, 0);
+    for (int i = 0; i < int(frame.size.z); ++i) {
       vec3 toLight;
       vec3 irradiance = lightAt(lights[i], pointWorld, toLight);
+      if (i < shadowedLights) irradiance *= visible[i];
       radiance += irradiance * reflectedShare(surface, normal, toViewer, toLight);
     }
   }

@@ -56,6 +56,7 @@ SHARED_CONST uint kEnvironmentUnit = 7;
 SHARED_CONST uint kEnvironmentBrdfUnit = 8;
 SHARED_CONST uint kColorUnit = 9;
 SHARED_CONST uint kOverdrawUnit = 10;
+SHARED_CONST uint kShadowUnit = 11;
 SHARED_CONST uint kWorldFieldUnit = 16; // of those that read the world field; a unit a cascade
 
 SHARED_END

@@ -22,7 +22,7 @@ SHARED_ASSERT_SIZE(FrameParams, 128 + 6 * 16 + 9 * 16)
 struct LightRow {
   vec4 position;  // world; w: kind (LIGHT_*)
   vec4 direction; // world, where it travels, unit; w: range in metres, 0 infinite
-  vec4 intensity; // rgb lux or candela; w: radius in metres
+  vec4 intensity; // rgb lux or candela; w: radius in metres, of a sun's disk at one metre
   vec4 cone;      // x: scale, y: offset of the spot's angular falloff
 };
 SHARED_ASSERT_SIZE(LightRow, 64)
@@ -31,6 +31,8 @@ SHARED_CONST uint LIGHT_SUN = 0;
 SHARED_CONST uint LIGHT_POINT = 1;
 SHARED_CONST uint LIGHT_SPOT = 2;
 SHARED_CONST uint LIGHT_SPHERE = 3;
+
+SHARED_CONST int MOST_SHADOWED_LIGHTS = 4; // the first ones; channels of the shadow texture
 
 SHARED_CONST uint KIND_NONE = 0;
 SHARED_CONST uint KIND_MESH = 1;

@@ -168,7 +168,8 @@ Json countsJson(const FrameStats& stats) {
           {"steps", stats.counters.steps},
           {"brick_reads", stats.counters.brickReads},
           {"promise_broken", stats.counters.promiseBroken},
-          {"out_of_steps", stats.counters.outOfSteps}};
+          {"out_of_steps", stats.counters.outOfSteps},
+          {"shadow_reads", stats.counters.shadowReads}};
 }
 
 // Of the last frame; tiles are those of the exact field.

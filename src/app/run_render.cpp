@@ -28,6 +28,7 @@ RendererSettings settingsOf(const RenderRequest& request) {
   settings.exposureEv = request.exposureEv;
   settings.view = showsFieldError(request) ? "field" : request.view;
   settings.worldField = request.field.settings;
+  if (request.shadows == ShadowChoice::Field) settings.shadows.method = ShadowMethod::Field;
   settings.fieldSlice = request.field.slice;
   return settings;
 }

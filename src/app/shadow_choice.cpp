@@ -27,10 +27,13 @@ bool isNone(const std::string& flag, const std::string& text) {
 
 void addRenderShadows(CLI::App& command, ShadowChoice& choice) {
   choice = ShadowChoice::None;
-  addValue(command, "--shadows", "Shadows of the lights: none, the only kind that the renderer has",
-           [](auto& flag, auto& text) {
-             if (!isNone(flag, text))
-               throw BadInput(flag, fmt::format("\"{}\"", text), "is not drawn by this version, only none is");
+  addValue(command, "--shadows",
+           "Shadows of the first four lights: field (soft, by marching the world field), or none, the default",
+           [&](auto& flag, auto& text) {
+             const bool none = isNone(flag, text);
+             if (!none && text != "field")
+               throw BadInput(flag, fmt::format("\"{}\"", text), "is not drawn by this version; field and none are");
+             choice = none ? ShadowChoice::None : ShadowChoice::Field;
            })
       ->type_name("KIND");
 }
@@ -48,7 +51,17 @@ void addReferenceShadows(CLI::App& command, ShadowChoice& choice) {
 }
 
 const char* shadowName(ShadowChoice choice) {
-  return choice == ShadowChoice::None ? "none" : choice == ShadowChoice::Hard ? "hard" : "traced";
+  switch (choice) {
+  case ShadowChoice::None:
+    return "none";
+  case ShadowChoice::Hard:
+    return "hard";
+  case ShadowChoice::Field:
+    return "field";
+  case ShadowChoice::Traced:
+    return "traced";
+  }
+  return "unknown";
 }
 
 } // namespace brickfield

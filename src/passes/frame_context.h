@@ -26,6 +26,7 @@ struct FrameContext {
   bool countersOn = false;
   const WorldTriangles* worldTriangles = nullptr; ///< null: nobody asks for a world field
   const FieldFrame* field = nullptr;              ///< the same
+  int shadowRays = 0;                             ///< in a penumbra; 0: no shadows
 };
 
 } // namespace brickfield

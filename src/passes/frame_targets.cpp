@@ -21,6 +21,7 @@ FrameTargets::FrameTargets(glm::uvec2 sizePixels)
       emission(layer("emission", GL_R11F_G11F_B10F, size)),
       id(layer("id", GL_R32UI, size)),
       trace(layer("trace", GL_RG32UI, size)),
+      shadow(layer("shadow", GL_RGBA8, size)),
       color(layer("color", GL_RGBA16F, size)),
       picture(layer("picture", GL_RGBA8, size)),
       boxOverdraw(layer("box_overdraw", GL_R16F, size)),
@@ -46,7 +47,7 @@ void FrameTargets::bindGBuffer() const {
 std::size_t FrameTargets::bytes() const {
   std::size_t sum = 0;
   for (const Texture* texture : {&depth, &depthMesh, &normalWorldOct, &albedo, &material, &emission, &id, &trace,
-                                 &color, &picture, &boxOverdraw})
+                                 &shadow, &color, &picture, &boxOverdraw})
     sum += texture->bytes();
   return sum;
 }

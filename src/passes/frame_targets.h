@@ -20,6 +20,7 @@ struct FrameTargets {
   Texture emission;       ///< R11F_G11F_B10F
   Texture id;             ///< R32UI: node << 2 | kind
   Texture trace;          ///< RG32UI: trace steps, number of the brick that was hit + 1
+  Texture shadow;         ///< RGBA8: visible shares of the first lights
   Texture color;          ///< RGBA16F: linear radiance
   Texture picture;        ///< RGBA8: after the tone curve
   Texture boxOverdraw;    ///< R16F

@@ -25,6 +25,8 @@ const char* resourceName(Resource resource) {
     return "gbuffer";
   case Resource::BoxOverdraw:
     return "box_overdraw";
+  case Resource::Shadow:
+    return "shadow";
   case Resource::Color:
     return "color";
   case Resource::Picture:

@@ -20,6 +20,7 @@ enum class Resource : std::uint8_t {
   DepthMesh, ///< depth of the meshes alone, which ends the rays of SDF objects
   GBuffer,   ///< normal, albedo, material, emission, id, trace
   BoxOverdraw,
+  Shadow, ///< visible shares of lights
   Color,
   Picture,
   Counters,
@@ -31,7 +32,7 @@ enum class Resource : std::uint8_t {
   WorldFieldCoarse,  ///< unsigned, less the thickness
   WorldField,        ///< the volume that other passes read, and what it keeps from frame to frame
 };
-inline constexpr int kResourceCount = 20;
+inline constexpr int kResourceCount = 21;
 const char* resourceName(Resource resource);
 
 /// How the GPU touches it: decides the barrier after incoherent writes.

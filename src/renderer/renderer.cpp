@@ -13,6 +13,7 @@
 #include "passes/geometry/sdf_box_pass.h"
 #include "passes/geometry/sdf_cull_pass.h"
 #include "passes/light/environment_pass.h"
+#include "passes/light/field_shadow_pass.h"
 #include "passes/light/lighting_pass.h"
 #include "passes/post/tone_pass.h"
 #include "passes/world_field/exact_passes.h"
@@ -50,6 +51,7 @@ void recordPass(RtsdfJumpFloodPass& pass, const FrameContext& frame) { pass.reco
 void recordPass(RtsdfRaysPass& pass, const FrameContext& frame) {
   pass.record(*frame.field->rtsdf, *frame.field->hierarchy, frame.worldTriangles->triangles());
 }
+void recordPass(FieldShadowPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(FieldViewPass& pass, const FrameContext& frame) { pass.record(frame); }
 
 /// A pass whose shaders are compiled when a frame first has it.
@@ -74,7 +76,7 @@ constexpr bool isLate = requires(Pass pass, ShaderLibrary& shaders) {
 /// What decides which passes a frame has.
 struct FrameShape {
   bool boxesFirst = false;
-  bool hasExactField = false, hasRtsdfField = false;
+  bool hasExactField = false, hasRtsdfField = false, hasShadows = false;
   bool showsPicture = false, showsDebugView = false, showsFieldView = false;
 };
 
@@ -104,6 +106,7 @@ struct Renderer::Parts {
   LatePass<RtsdfVoxelizePass> rtsdfVoxelize;
   LatePass<RtsdfJumpFloodPass> rtsdfJumpFlood;
   LatePass<RtsdfRaysPass> rtsdfRays;
+  LatePass<FieldShadowPass> fieldShadow;
   LatePass<FieldViewPass> fieldView;
 
   RendererSettings settings;
@@ -157,7 +160,7 @@ Renderer::Parts::Parts(const ContextInfo& info)
 bool Renderer::Parts::readsField() const {
   if (settings.worldField.method == FieldMethod::Off) return false;
   const DebugView* shown = findView(settings.view);
-  return settings.worldField.always || (shown && shown->readsField);
+  return settings.worldField.always || settings.shadows.method == ShadowMethod::Field || (shown && shown->readsField);
 }
 
 const FieldFrame& Renderer::Parts::prepareField() {
@@ -189,6 +192,7 @@ void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
     take(&Parts::depthCopy); // ends the rays of SDF objects behind meshes
     take(&Parts::sdfBox);
   }
+  if (shape.hasShadows) take(&Parts::fieldShadow);
   take(&Parts::lighting); // also under a debug view: layers are whole whatever the picture shows
   if (shape.showsPicture) take(&Parts::tone);
   if (shape.showsDebugView) {
@@ -204,6 +208,7 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
   const FrameShape shape{settings.drawOrder == DrawOrder::BoxesFirstAllReversed,
                          context.field && context.field->exact,
                          context.field && context.field->rtsdf,
+                         context.shadowRays > 0,
                          !shown,
                          shown && !readsField,
                          readsField};
@@ -301,7 +306,9 @@ void Renderer::render(const View& view) {
                              parts.settings.drawOrder,
                              parts.settings.countersOn,
                              field ? &parts.field->triangles() : nullptr,
-                             field};
+                             field,
+                             parts.settings.shadows.method == ShadowMethod::Field ? parts.settings.shadows.penumbraRays
+                                                                                  : 0};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDisable(GL_BLEND);
   glEnable(GL_FRAMEBUFFER_SRGB); // albedo is stored as sRGB; the other targets are linear and unaffected
@@ -324,7 +331,8 @@ FrameStats Renderer::stats() {
   const std::vector<std::uint32_t> counts = parts.counters.read<std::uint32_t>();
   stats.counters = {counts[shared::COUNTER_FRAGMENTS],      counts[shared::COUNTER_HITS],
                     counts[shared::COUNTER_STEPS],          counts[shared::COUNTER_BRICK_READS],
-                    counts[shared::COUNTER_PROMISE_BROKEN], counts[shared::COUNTER_OUT_OF_STEPS]};
+                    counts[shared::COUNTER_PROMISE_BROKEN], counts[shared::COUNTER_OUT_OF_STEPS],
+                    counts[shared::COUNTER_SHADOW_READS]};
   stats.sdfInstances = parts.scene->sdfInstanceCount();
   if (stats.sdfInstances > 0) {
     const std::vector<shared::BoxCommand> commands = parts.visible.commands().read<shared::BoxCommand>();
@@ -357,7 +365,7 @@ FieldPicture Renderer::fieldPicture() const {
 
 std::vector<std::string> framePassNames() {
   std::vector<std::string> names;
-  Renderer::Parts::listPasses({false, true, true, true, true, true},
+  Renderer::Parts::listPasses({false, true, true, true, true, true, true},
                               [&]<typename Pass>(Pass Renderer::Parts::*) { names.push_back(Pass::declare().name); });
   return names;
 }

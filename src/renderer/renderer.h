@@ -24,6 +24,7 @@ struct FrameCounters {
   std::uint32_t brickReads = 0;
   std::uint32_t promiseBroken = 0; ///< depths in front of the box face: must be 0
   std::uint32_t outOfSteps = 0;    ///< rays that ran out of steps
+  std::uint32_t shadowReads = 0;   ///< of the world field, for shadows
 };
 
 /// What the GPU holds, by kind; as asked for, without what a driver adds.

@@ -87,6 +87,10 @@ const DebugView* findView(const std::string& name) {
 void checkSettings(const RendererSettings& settings) {
   checkShape(settings.worldField.shape);
   checkRtsdfSettings(settings.worldField.rtsdf);
+  if (settings.shadows.method == ShadowMethod::Field && settings.worldField.method == FieldMethod::Off)
+    throw BadInput("shadows", "field", "needs a world field, which is off");
+  if (settings.shadows.penumbraRays < 1 || settings.shadows.penumbraRays > 64)
+    throw BadInput("shadows", fmt::format("{} rays", settings.shadows.penumbraRays), "is not 1 to 64");
   if (settings.view.empty()) return;
   const DebugView* view = findView(settings.view);
   if (!view) throw BadInput("view", settings.view, "no such view");

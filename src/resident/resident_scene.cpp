@@ -181,7 +181,8 @@ void ResidentScene::setLighting(const Lighting& lighting) {
                                                                 : shared::LIGHT_SPHERE;
     row.position = glm::vec4(posed.positionWorld, static_cast<float>(kind));
     row.direction = glm::vec4(posed.directionWorld, light.range);
-    row.intensity = glm::vec4(light.color * light.intensity, light.radius);
+    const float radius = light.kind == LightKind::Sun ? std::tan(0.5f * light.angleRadians) : light.radius;
+    row.intensity = glm::vec4(light.color * light.intensity, radius);
     // KHR_lights_punctual: the angular falloff as scale and offset of the cosine; 0.001 is the extension's guard.
     const float cosInner = std::cos(light.innerConeRadians), cosOuter = std::cos(light.outerConeRadians);
     row.cone.x = 1.0f / std::max(0.001f, cosInner - cosOuter);

@@ -1,6 +1,8 @@
 // A compute pass over the picture: fragment shaders have a fraction of some GPUs' units (NUMBERS of the design).
 #include "passes/light/lighting_pass.h"
 
+#include <algorithm>
+
 namespace brickfield {
 
 LightingPass::LightingPass(ShaderLibrary& shaders)
@@ -20,6 +22,9 @@ void LightingPass::record(const FrameContext& context) {
   context.environment.bind(shared::kEnvironmentUnit);
   context.environmentBrdf.bind(shared::kEnvironmentBrdfUnit);
   context.scene.bindLights();
+  context.targets.shadow.bind(shared::kShadowUnit);
+  const std::uint32_t shadowed = context.shadowRays > 0 ? context.scene.lightCount() : 0;
+  program_->set("shadowedLights", std::min(static_cast<int>(shadowed), shared::MOST_SHADOWED_LIGHTS));
   context.targets.color.bindImage(0, 0, GL_WRITE_ONLY);
   program_->dispatchOver({context.targets.color.width(), context.targets.color.height(), 1});
 }

@@ -24,10 +24,11 @@ ShadowChoice parse(AddFlag add, std::vector<std::string> arguments) {
   return choice;
 }
 
-TEST(ShadowChoice, RenderHasNoneAndSaysSo) {
+TEST(ShadowChoice, RenderHasFieldAndNoneAndSaysSo) {
   EXPECT_EQ(parse(addRenderShadows, {}), ShadowChoice::None);
   EXPECT_EQ(parse(addRenderShadows, {"none", "--shadows"}), ShadowChoice::None);
-  for (const char* kind : {"field", "csm", "csm+field"})
+  EXPECT_EQ(parse(addRenderShadows, {"field", "--shadows"}), ShadowChoice::Field);
+  for (const char* kind : {"csm", "csm+field"})
     EXPECT_THAT(refusalOf([&] {
                   parse(addRenderShadows, {kind, "--shadows"});
                 }),
