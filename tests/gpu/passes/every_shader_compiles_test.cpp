@@ -48,6 +48,8 @@ const std::vector<ProgramSource>& programs() {
       compute("field_far_values", "passes/field_far_values.comp.glsl"),
       compute("field_far", "passes/field_far.comp.glsl"),
       compute("field_objects", "passes/field_objects.comp.glsl"),
+      compute("field_shadow", "passes/field_shadow.comp.glsl"),
+      {"field_shadow_counting", {{GL_COMPUTE_SHADER, "passes/field_shadow.comp.glsl"}}, {{"COUNTERS_ON", "1"}}, {}},
       compute("hierarchy_refit", "passes/hierarchy_refit.comp.glsl"),
       compute("rtsdf_voxelize", "passes/rtsdf_voxelize.comp.glsl"),
       compute("rtsdf_jump_flood", "passes/rtsdf_jump_flood.comp.glsl"),
