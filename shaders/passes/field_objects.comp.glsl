@@ -14,7 +14,9 @@ layout(binding = 0, r16f) uniform image3D distances[MOST_CASCADES];
 
 uniform uint listLength;
 
-const uint MOST_REACHING = FIELD_TILE_TEXELS; // of one round
+// Of one round: objects are asked as many at a time as there are threads while all of them would have room. No more, as
+// 32 KiB of shared memory are promised.
+const uint MOST_REACHING = FIELD_TILE_TEXELS + 96u;
 const float INSIDE_FIRST = -1e30;
 const uint NO_OBJECT = 0xffffffffu, OBJECT_MASK = 0x7fffffffu, OBJECT_UNSURE = 0x80000000u;
 
@@ -56,7 +58,7 @@ FieldObject objectAt(Place place, uint number) {
   return fieldObject(sdfInstances[number], field.anchor.xyz, place.cascade.texel.x);
 }
 
-// Adds those of the next objects that may be nearer than `most` to a texel of the tile, as many as there is room for.
+// Lists those of the next objects that may be nearer than `most` to a texel of the tile.
 // returns the first that was not asked
 uint listObjects(Place place, uint first, float most) {
   if (gl_LocalInvocationIndex == 0u) reachingCount = 0u;

@@ -43,6 +43,17 @@ void addTurned(MeshCase& mesh) {
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) mesh.addTriangle(corners[i], corners[i + 2], corners[i + 1]);
 }
 
+/// Frames of turned triangles are rounded the other way: by a step of the code.
+void expectSameToACode(const BrickLevel& level, const BrickLevel& other) {
+  ASSERT_EQ(level.brickCount(), other.brickCount());
+  for (std::uint32_t brick = 0; brick < level.brickCount(); ++brick)
+    for (int i = 0; i < kBrickSampleCount; ++i) {
+      const glm::ivec3 sample(i % 8, i / 8 % 8, i / 64);
+      ASSERT_NEAR(storedDistance(level, brick, sample), storedDistance(other, brick, sample),
+                  1.01f * level.rangeVoxels / 32767);
+    }
+}
+
 TEST(OddMeshes, NestedThatFaceOutwardsAreOneSolid) {
   MeshCase nest;
   nest.addBox(-kOne, kOne), nest.addBox(-kHalf, kHalf);
@@ -70,15 +81,7 @@ TEST(OddMeshes, InsideOutIsTheSameSolid) {
   const BakeResult result = expectSides(turned, {{{0, 0, 0}, true}, {{1.02f, 0, 0}, false}});
   MeshCase plain;
   plain.addBox(-kOne, kOne);
-  // Frames of turned triangles are rounded the other way: a step of the code.
-  const BrickLevel level = result.field.levels[0], plainLevel = expectSides(plain, {}).field.levels[0];
-  ASSERT_EQ(level.brickCount(), plainLevel.brickCount());
-  for (std::uint32_t brick = 0; brick < level.brickCount(); ++brick)
-    for (int i = 0; i < kBrickSampleCount; ++i) {
-      const glm::ivec3 sample(i % 8, i / 8 % 8, i / 64);
-      ASSERT_NEAR(storedDistance(level, brick, sample), storedDistance(plainLevel, brick, sample),
-                  1.01f * level.rangeVoxels / 32767);
-    }
+  expectSameToACode(result.field.levels[0], expectSides(plain, {}).field.levels[0]);
 }
 
 TEST(OddMeshes, SelfIntersectingIsTheUnion) {
@@ -179,15 +182,7 @@ TEST(OddMeshes, DegenerateTrianglesCountForNothing) {
   box.addTriangle({0, 0, 0}, {1, 1, 1}, {3, 3, 3});
   const BakeResult result = expectSides(box, {{{0, 0, 0}, true}, {{1.02f, 0, 0}, false}});
   EXPECT_EQ(result.stats.degenerateTriangles, 2u);
-  // Frames of turned triangles are rounded the other way: a step of the code.
-  const BrickLevel level = result.field.levels[0], plainLevel = expectSides(plain, {}).field.levels[0];
-  ASSERT_EQ(level.brickCount(), plainLevel.brickCount());
-  for (std::uint32_t brick = 0; brick < level.brickCount(); ++brick)
-    for (int i = 0; i < kBrickSampleCount; ++i) {
-      const glm::ivec3 sample(i % 8, i / 8 % 8, i / 64);
-      ASSERT_NEAR(storedDistance(level, brick, sample), storedDistance(plainLevel, brick, sample),
-                  1.01f * level.rangeVoxels / 32767);
-    }
+  expectSameToACode(result.field.levels[0], expectSides(plain, {}).field.levels[0]);
 }
 
 TEST(OddMeshes, NothingButDegenerateTrianglesIsRefused) {
