@@ -1,5 +1,5 @@
-// What the band's rounds left: between the coarse values in tiles that a surface reaches; elsewhere the range with the
-// sign of the first tile along an axis that one reaches. Fine texels whose own sign is not sure ask for it.
+// What the band's rounds left, in tiles that a surface reaches: values between the coarse ones. Fine texels whose own sign
+// is not sure ask for it. Other tiles are left to field_sides.
 //
 // Where closed parts, or folds of one, reach into each other, a surface that lies buried shows its outside to what is
 // inside, and signs contradict each other: opposite ones lie closer together than any surface. There what one texel of
@@ -11,34 +11,21 @@ layout(local_size_x = 128) in;
 layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
 layout(std430, binding = kFieldIdBinding) readonly buffer IdBlock { uint ids[]; };
 layout(std430, binding = kFieldCandidateBinding) readonly buffer CandidateBlock { uint candidates[]; };
+layout(std430, binding = kFieldSideBinding) writeonly buffer SideBlock { uint sides[]; };
 
 uniform uint listLength;
+
+#include "lib/field_coarse_values.glsl"
 
 const int APRON = COARSE_TILE + 2;
 shared float coarseTexels[APRON * APRON * APRON];
 shared uint coarseNodes[COARSE_TILE_TEXELS];
-shared int reached[6];
 shared bool isTorn; // signs of the tile contradict each other
 
 // Coarse neighbours lie two texels apart. Of opposite signs their distances sum to no more, and what candidates err by.
 const float TORN_TEXELS = 2.0 + 0.8;
 // From a texel to the farthest of the eight coarse ones around it, 1.5 along each axis, and the same.
 const float TOLD_TEXELS = 2.5980762 + 0.6;
-
-float coarseValue(FieldCascade cascade, ivec3 coarse) {
-  uint word = coarseWord(cascade, coarse);
-  vec2 pair = unpackHalf2x16(candidates[coarseDistanceWord(word)]);
-  return (word & 1u) == 0u ? pair.x : pair.y;
-}
-
-// Of a reached tile: the sign on its side at `coarseAt`; what has no candidate is nearer to the coarse texel nearest to
-// a surface than to any surface.
-bool isInsideAt(FieldCascade cascade, FieldTile tile, ivec3 firstCoarse, ivec3 coarseAt) {
-  float texels = coarseValue(cascade, firstCoarse + coarseAt);
-  if (texels == UNKNOWN_TEXELS)
-    texels = coarseValue(cascade, firstCoarse + cubeIndex(int(tile.nearestTexel), COARSE_TILE));
-  return texels < 0.0;
-}
 
 void load(ListedTile tile, FieldCascade cascade, float unknown) {
   if (gl_LocalInvocationIndex == 0u) isTorn = false;
@@ -133,43 +120,6 @@ void resolveReached(ListedTile tile, FieldCascade cascade) {
   }
 }
 
-// The direction from the tile, 0 to 5, along which to look for a reached tile.
-ivec3 stepOf(int direction) {
-  return ivec3(direction >> 1 == 0, direction >> 1 == 1, direction >> 1 == 2) * ((direction & 1) * 2 - 1);
-}
-
-// Distances, in tiles, to the nearest reached ones along the six directions; none: as many as the window has.
-void findReached(ListedTile tile, FieldCascade cascade) {
-  int count = cascade.window.w >> 3;
-  if (gl_LocalInvocationIndex < 6u) reached[gl_LocalInvocationIndex] = count;
-  barrier();
-  for (int i = int(gl_LocalInvocationIndex); i < 6 * count; i += 128) {
-    int direction = i / count, away = i % count;
-    ivec3 other = (tile.firstTexel >> 3) + stepOf(direction) * away;
-    if (away > 0 && isInWindow(cascade, other * int(FIELD_TILE)) &&
-        isReachedTile(tiles[cascade.buffers.z + tileSlot(cascade, other)]))
-      atomicMin(reached[direction], away);
-  }
-  barrier();
-}
-
-// The sign of the first of these tiles, at the side that looks here.
-void resolveUnreached(ListedTile tile, FieldCascade cascade) {
-  findReached(tile, cascade);
-  bool isInside = false;
-  for (int direction = 0; direction < 6; ++direction) {
-    if (reached[direction] == cascade.window.w >> 3) continue;
-    ivec3 step = stepOf(direction), other = (tile.firstTexel >> 3) + step * reached[direction];
-    // The middle, and on the axis what looks here.
-    ivec3 side = clamp(ivec3(2) - step * 2, ivec3(0), ivec3(COARSE_TILE - 1));
-    isInside = isInsideAt(cascade, tiles[cascade.buffers.z + tileSlot(cascade, other)], other * COARSE_TILE, side);
-    break;
-  }
-  for (int i = int(gl_LocalInvocationIndex); i < int(FIELD_TILE_TEXELS); i += 128)
-    store(tile.cascade, tile.firstTexel + cubeIndex(i, int(FIELD_TILE)), isInside ? -1e9 : 1e9,
-          isInside ? FIELD_NODE_INSIDE : 0u);
-}
-
 void main() {
   uint index = listIndex();
   if (index >= listLength) return;
@@ -177,6 +127,6 @@ void main() {
   FieldCascade cascade = field.cascades[tile.cascade];
   if (isReachedTile(tiles[tile.word]))
     resolveReached(tile, cascade);
-  else
-    resolveUnreached(tile, cascade);
+  else if (gl_LocalInvocationIndex == 0u)
+    sides[tile.word] = FIELD_SIDE_UNKNOWN;
 }

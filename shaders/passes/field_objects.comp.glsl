@@ -7,12 +7,19 @@
 
 layout(local_size_x = FIELD_TILE_TEXELS) in; // a texel each
 
+#ifdef FLIPPED // the tiles that field_sides turned over
+layout(std430, binding = kFieldFlipBinding) readonly buffer FlipBlock {
+  uint groupsX, groupsY, groupsZ;
+  uint listLength;
+  uint listed[];
+};
+#else
 layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
+uniform uint listLength;
+#endif
 layout(std430, binding = kFieldNodeBinding) buffer NodeBlock { uint nodes[]; };
 layout(std430, binding = kFieldSphereBinding) readonly buffer SphereBlock { vec4 spheres[]; };
 layout(binding = 0, r16f) uniform image3D distances[MOST_CASCADES];
-
-uniform uint listLength;
 
 // Of one round: objects are asked as many at a time as there are threads while all of them would have room. No more, as
 // 32 KiB of shared memory are promised.

@@ -80,6 +80,11 @@ SHARED_CONST uint FIELD_NODE_INSIDE = 0x80000000u;
 SHARED_CONST uint FIELD_NODE_MASK = 0x0fffffffu;
 SHARED_CONST uint FIELD_NODE_UNCERTAIN = 0xffffffffu; // to readers: the texels around a point name different ones
 
+// What a tile that nothing reaches holds, the same in all its texels; unknown where it is to be written anew.
+SHARED_CONST uint FIELD_SIDE_UNKNOWN = 0;
+SHARED_CONST uint FIELD_SIDE_OUTSIDE = 1;
+SHARED_CONST uint FIELD_SIDE_INSIDE = 2;
+
 // Up to GATHER_TRIANGLES triangles to leave their keys in one cascade.
 struct FieldSplat {
   uint firstTriangle;

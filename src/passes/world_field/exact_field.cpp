@@ -50,6 +50,10 @@ bool ExactField::fit(const std::vector<FieldWindow>& windows) {
   candidates_ = Buffer("field_candidates", words / 8 + words / 16); // and their distances, as halves
   tiles_ = Buffer("field_tiles", texels / shared::FIELD_TILE_TEXELS * sizeof(shared::FieldTile));
   tiles_.clear(0);
+  const std::size_t tileWords = texels / shared::FIELD_TILE_TEXELS * sizeof(std::uint32_t);
+  sides_ = Buffer("field_sides", tileWords);
+  sides_.clear(shared::FIELD_SIDE_UNKNOWN);
+  flips_ = Buffer("field_flips", 16 + tileWords);
   for (std::size_t i = 0; i < windows.size(); ++i) {
     Texture& texture = distances_.emplace_back(
         Texture::make3D(fmt::format("field_distance_{}", i), GL_R16F, glm::ivec3(windows[i].texels)));
@@ -108,8 +112,8 @@ std::size_t ExactField::bytes() const {
   std::size_t sum = 0;
   for (const Texture& texture : distances_) sum += texture.bytes();
   for (const Buffer& list : lists_) sum += list.bytes();
-  for (const Buffer* buffer :
-       {&params_, &splats_, &parts_, &spheres_, &keys_, &ids_, &nodes_, &seeds_, &sweeps_, &candidates_, &tiles_})
+  for (const Buffer* buffer : {&params_, &splats_, &parts_, &spheres_, &keys_, &ids_, &nodes_, &seeds_, &sweeps_,
+                               &candidates_, &tiles_, &sides_, &flips_})
     sum += buffer->bytes();
   return sum;
 }

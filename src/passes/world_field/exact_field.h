@@ -63,6 +63,11 @@ public:
   void bindNodes() const { nodes_.bindStorage(shared::kFieldNodeBinding); }
   void bindTiles() const { tiles_.bindStorage(shared::kFieldTileBinding); }
   void clearParts() { parts_.clear(0, 0, 16); }
+  void bindSides() const { sides_.bindStorage(shared::kFieldSideBinding); }
+  /// Tiles whose side was another one before this update: the groups of a dispatch, their count, their words.
+  const Buffer& flips() const { return flips_; }
+  void clearFlips() { flips_.clear(0, 0, 16); }
+  std::uint32_t tileCount() const { return static_cast<std::uint32_t>(tiles_.bytes() / sizeof(shared::FieldTile)); }
 
   std::size_t bytes() const;
 
@@ -77,6 +82,8 @@ private:
   Buffer keys_, ids_, nodes_;          ///< a word a texel
   Buffer seeds_, sweeps_, candidates_; ///< a word a coarse texel
   Buffer tiles_;
+  Buffer sides_; ///< a word a tile: FIELD_SIDE_*
+  Buffer flips_;
   std::uint32_t splatCount_ = 0, update_ = 0;
 };
 

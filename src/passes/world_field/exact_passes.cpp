@@ -14,12 +14,16 @@ std::shared_ptr<Program> loadCompute(ShaderLibrary& shaders, const std::string& 
 }
 
 // One work group an entry; what one dimension cannot hold goes to a second (lib/field_grid.glsl listIndex).
+void dispatchGroups(Program& program, std::uint32_t count) {
+  constexpr std::uint32_t kMostGroups = 32768; // of the 65535 that are promised
+  program.use();
+  glDispatchCompute(std::min(count, kMostGroups), ceilDivide(count, kMostGroups), 1);
+}
+
 void dispatchList(Program& program, std::uint32_t length) {
   if (length == 0) return;
-  constexpr std::uint32_t kMostGroups = 32768; // of the 65535 that are promised
   program.set("listLength", length);
-  program.use();
-  glDispatchCompute(std::min(length, kMostGroups), ceilDivide(length, kMostGroups), 1);
+  dispatchGroups(program, length);
 }
 
 void betweenDispatches() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); }
@@ -102,7 +106,11 @@ FieldResolvePass::FieldResolvePass(ShaderLibrary& shaders)
       refine_(loadCompute(shaders, "passes/field_refine.comp.glsl")),
       farValues_(loadCompute(shaders, "passes/field_far_values.comp.glsl")),
       far_(loadCompute(shaders, "passes/field_far.comp.glsl")),
-      objects_(loadCompute(shaders, "passes/field_objects.comp.glsl")) {}
+      sides_(loadCompute(shaders, "passes/field_sides.comp.glsl")),
+      objects_(loadCompute(shaders, "passes/field_objects.comp.glsl")),
+      objectsOfFlipped_(shaders.load(
+          {"field_objects_flipped", {{GL_COMPUTE_SHADER, "passes/field_objects.comp.glsl"}}, {{"FLIPPED", "1"}}, {}})) {
+}
 
 PassDeclaration FieldResolvePass::declare() {
   return {"field_resolve",
@@ -113,7 +121,30 @@ PassDeclaration FieldResolvePass::declare() {
           {{Resource::WorldField, Access::ImageStore}}};
 }
 
-void FieldResolvePass::record(const ExactField& field, const Buffer& triangles, const ResidentScene& scene) {
+void FieldResolvePass::makeSides(ExactField& field) {
+  constexpr std::uint32_t kTilesOfGroup = 16;
+  field.clearFlips();
+  field.flips().bindStorage(shared::kFieldFlipBinding);
+  sides_->set("tileCount", field.tileCount());
+  dispatchGroups(*sides_, ceilDivide(field.tileCount(), kTilesOfGroup));
+}
+
+void FieldResolvePass::joinObjects(const ExactField& field, const ResidentScene& scene) {
+  constexpr GLbitfield kResults = GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
+  glMemoryBarrier(kResults | GL_COMMAND_BARRIER_BIT);
+  scene.atlas().bind();
+  scene.bindSdfInstances();
+  field.bindSpheres();
+  field.bindList(ExactField::List::Values);
+  dispatchList(*objects_, field.lengthOf(ExactField::List::Values));
+  field.flips().bindStorage(shared::kFieldFlipBinding);
+  objectsOfFlipped_->use();
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, field.flips().id());
+  glDispatchComputeIndirect(0);
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+}
+
+void FieldResolvePass::record(ExactField& field, const Buffer& triangles, const ResidentScene& scene) {
   if (!field.hasWork()) return;
   field.bindParams();
   triangles.bindStorage(shared::kWorldTriangleBinding);
@@ -122,6 +153,7 @@ void FieldResolvePass::record(const ExactField& field, const Buffer& triangles, 
   field.bindCandidates();
   field.bindTiles();
   field.bindNodes();
+  field.bindSides();
   for (std::size_t cascade = 0; cascade < field.windows().size(); ++cascade)
     field.distances(cascade).bindImage(static_cast<GLuint>(cascade), 0, GL_READ_WRITE);
   field.bindList(ExactField::List::Candidates);
@@ -131,12 +163,9 @@ void FieldResolvePass::record(const ExactField& field, const Buffer& triangles, 
     betweenDispatches();
     dispatchList(*program, field.lengthOf(ExactField::List::Values));
   }
-  if (scene.sdfInstanceCount() == 0) return;
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  scene.atlas().bind();
-  scene.bindSdfInstances();
-  field.bindSpheres();
-  dispatchList(*objects_, field.lengthOf(ExactField::List::Values));
+  betweenDispatches();
+  makeSides(field);
+  if (scene.sdfInstanceCount() > 0) joinObjects(field, scene);
 }
 
 } // namespace brickfield

@@ -39,10 +39,13 @@ class FieldResolvePass {
 public:
   explicit FieldResolvePass(ShaderLibrary& shaders);
   static PassDeclaration declare();
-  void record(const ExactField& field, const Buffer& triangles, const ResidentScene& scene);
+  void record(ExactField& field, const Buffer& triangles, const ResidentScene& scene);
 
 private:
-  std::shared_ptr<Program> evaluate_, refine_, farValues_, far_, objects_;
+  void makeSides(ExactField& field);
+  void joinObjects(const ExactField& field, const ResidentScene& scene);
+
+  std::shared_ptr<Program> evaluate_, refine_, farValues_, far_, sides_, objects_, objectsOfFlipped_;
 };
 
 } // namespace brickfield

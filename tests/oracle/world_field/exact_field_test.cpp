@@ -167,6 +167,40 @@ TEST_F(ExactField, UpdatesOfSdfObjectsEqualTheFieldMadeFromNothing) {
   }
 }
 
+// A torus moves in a box so large that nothing reaches most tiles in it, past an SDF sphere that reaches into such
+// tiles: their signs come from far away and change with what lies there, and the object joins again.
+TEST_F(ExactField, UpdatesWithinALargeSolidEqualTheFieldMadeFromNothing) {
+  Scene built = makeInterpenetration(); // nodes Torus, Sphere
+  built.meshes.push_back(makeBoxMesh({3, 5, 5}));
+  Node box;
+  box.name = "Box";
+  box.mesh = 2;
+  built.scenes[0].nodes.push_back(2);
+  built.nodes.push_back(box);
+  const TestScene scene(std::move(built), "Sphere", 32);
+  const FieldShape shape{1, 128, 0.05, false};
+  const auto poseAt = [&](int frame) {
+    Pose pose = scene.pose();
+    const glm::mat4 third = glm::scale(glm::mat4(1), glm::vec3(0.3f));
+    const glm::vec3 at(0.3f, frame == 0 ? -1.5f : 0.0f, -0.5f);
+    pose.instances[0].worldFromObject = glm::translate(glm::mat4(1), at) * third;
+    pose.instances[1].worldFromObject = glm::translate(glm::mat4(1), glm::vec3(0.3f, 0, 1.2f)) * third;
+    return pose;
+  };
+  WorldFieldStage moving(scene.scene(), scene.fields(), shape);
+  for (int frame = 0; frame < 2; ++frame) moving.frame(poseAt(frame), glm::dvec3(0));
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  WorldFieldStage fromNothing(scene.scene(), scene.fields(), shape);
+  fromNothing.frame(poseAt(1), glm::dvec3(0));
+  const FieldSnapshot updated = moving.read(), made = fromNothing.read();
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < made.distances.size(); ++i)
+    differing += made.distances[i] != updated.distances[i] || made.nodes[i] != updated.nodes[i];
+  EXPECT_EQ(differing, 0u);
+  EXPECT_GT(moving.field().exact().flips().readValue<std::uint32_t>(12), 0u)
+      << "the scene does not show what it is for";
+}
+
 TEST_F(ExactField, AStillSceneIsNoWork) {
   const Scene scene = makeInterpenetration();
   WorldFieldStage stage(scene, {}, {2, 64, 0, false});
