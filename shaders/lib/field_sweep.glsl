@@ -2,6 +2,8 @@
 // Felzenszwalb and Huttenlocher 2012, but by plain search in a window: it is short). One word holds what the three
 // leave, seven bits each: x: offset along x; y: offsets along x and y to the best in the plane; z: offset along z.
 // 0: no seed within reach.
+#include "lib/field_grid.glsl"
+
 const int SWEEP_BIAS = 64;
 const uint SWEEP_MASK = 127u;
 const uint SWEEP_ROW_SHIFT = 0u, SWEEP_PLANE_X_SHIFT = 7u, SWEEP_PLANE_Y_SHIFT = 14u, SWEEP_Z_SHIFT = 21u;
@@ -28,3 +30,6 @@ uint sweepResult(uint own, uint found, int offset, int axis) {
            sweepBits(offset, SWEEP_PLANE_Y_SHIFT);
   return (own & ~(SWEEP_MASK << SWEEP_Z_SHIFT)) | sweepBits(offset, SWEEP_Z_SHIFT);
 }
+
+// Coarse texels that a sweep looks to either side; field/field_windows.h fieldSweepReach.
+int sweepReach(FieldCascade cascade) { return max(int(cascade.texel.z) / 2 + 2, 8); }

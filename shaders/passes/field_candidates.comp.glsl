@@ -17,6 +17,9 @@ uniform uint listLength;
 const int APRON = COARSE_TILE + 2;
 shared uint named[APRON * APRON * APRON];
 const float MOST_HALF = 65504.0;
+// Along an axis, from a surface to the centre of the coarse texel that it seeds: field_seeds lets it pass by the centre of
+// a texel so far, and half a texel from there.
+const float SEED_AWAY_TEXELS = 0.8760255 + 0.5;
 shared float ranks[COARSE_TILE_TEXELS]; // texels
 shared uint leastBits, leastTexel;
 
@@ -51,6 +54,9 @@ void main() {
     if (abs(step.x) + abs(step.y) + abs(step.z) < 3) // the eight at the corners add nothing
       consider(named[own + (step.z * APRON + step.y) * APRON + step.x], point, sheetHalf, nearest);
   }
+  // Farther away what is nearest may lie outside the sweeps' window. It is farther than the coarse texels of a tile and
+  // those beside it lie apart, 13.9: what has no candidate there has the sign of the tile's nearest to a surface.
+  if (nearest.rank * cascade.texel.y > float(COARSE * sweepReach(cascade)) - SEED_AWAY_TEXELS) nearest.triangle = FIELD_NONE;
   uint word = coarseWord(cascade, first + at);
   candidates[word] = nearest.triangle;
   float rank = nearest.triangle == FIELD_NONE ? MOST_HALF : nearest.rank * cascade.texel.y;

@@ -63,7 +63,7 @@ void main() {
   }
   barrier();
 
-  int reach = int(cascade.texel.z) / 2 + 2; // field/field_windows.h fieldSweepReach
+  int reach = sweepReach(cascade);
   Best best = Best(NOTHING, 0, 0u);
   if (isFull[MOST_TILES_AWAY]) askTile(first, stride, -at, reach, best);
   for (int away = 1; away <= MOST_TILES_AWAY; ++away) {

@@ -92,7 +92,7 @@ private:
 
 /// Distance, in texels, up to which a triangle leaves its key in the texels around it.
 inline constexpr float kFieldSplatTexels = 2.0f;
-/// How far the sweeps over coarse seeds look, in coarse texels of two.
-inline int fieldSweepReach(int rangeTexels) { return rangeTexels / 2 + 2; }
+/// How far the sweeps over coarse seeds look, in coarse texels of two. At least what field_candidates needs for signs.
+inline int fieldSweepReach(int rangeTexels) { return std::max(rangeTexels / 2 + 2, 8); }
 
 } // namespace brickfield
