@@ -61,12 +61,17 @@ public:
                             std::vector<float>(pixels, 1.0f));
     if (request.ambientOcclusionMetres) layers_.ambientOcclusion.assign(pixels, 1.0f);
     // The rays of the layers are a pass of their own, unless the only sample of the picture is that same ray.
-    isLayerPassShared_ = samples_ == 1;
-    total_ = tileCount() * static_cast<std::size_t>(samples_ + (isLayerPassShared_ ? 0 : 1));
+    isLayerPassShared_ = samples_ == 1 && !request.layersAlone;
+    total_ =
+        tileCount() * (request.layersAlone ? 1 : static_cast<std::size_t>(samples_ + (isLayerPassShared_ ? 0 : 1)));
   }
 
   FrameLayers run() {
     runPass("reference", 1, [this](glm::uvec2 pixel) { traceLayers(pixel); });
+    if (request_.layersAlone) {
+      layers_.color.clear();
+      return std::move(layers_);
+    }
     int passSamples = 1;
     for (int begin = isLayerPassShared_ ? samples_ : 0; begin < samples_; begin += passSamples) {
       passSamples = std::min({std::max(begin, 1), kMostPassSamples, samples_ - begin});

@@ -31,6 +31,7 @@ struct ReferenceRequest {
   std::uint64_t seed = 0;
   int threads = 0;                ///< 0: all
   bool lightsFromCentres = false; ///< every light a point or a direction: hard shadows
+  bool layersAlone = false;       ///< no colour: a ray a pixel and what its layers ask for
   bool shadowLayers = false;      ///< make FrameLayers::shadow, unless without shadows, of the first 32 lights
   std::optional<float> ambientOcclusionMetres{}; ///< what lies nearer hides the environment, and makes the layer
   ReferenceFields fields{};                      ///< empty: triangles alone

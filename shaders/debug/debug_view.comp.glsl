@@ -6,6 +6,8 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = kOverdrawUnit) uniform sampler2D box_overdraw;
+layout(binding = kShadowUnit) uniform sampler2D shadow;
+layout(binding = kShadowReadsUnit) uniform usampler2D shadow_reads;
 layout(binding = 0, rgba8) writeonly uniform image2D picture;
 
 float viewUnit(float value) { return (value - frame.debugRange.x) / max(frame.debugRange.y - frame.debugRange.x, 1e-6); }
@@ -35,6 +37,12 @@ void main() {
       break;
     }
     case DEBUG_VIEW_OVERDRAW: shown = heat(viewUnit(texelFetch(box_overdraw, pixel, 0).r)); break;
+    case DEBUG_VIEW_SHADOW: {
+      vec4 visible = texelFetch(shadow, pixel, 0);
+      if (kind != KIND_NONE) shown = frame.size.z == 1u ? visible.rrr : visible.rgb;
+      break;
+    }
+    case DEBUG_VIEW_SHADOW_READS: shown = heat(viewUnit(float(texelFetch(shadow_reads, pixel, 0).r))); break;
     default: break;
   }
   imageStore(picture, pixel, vec4(shown, 1.0));

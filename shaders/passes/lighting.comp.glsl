@@ -39,6 +39,21 @@ vec3 lightAt(LightRow light, vec3 pointWorld, out vec3 toLight) {
   return light.intensity.rgb * falloff;
 }
 
+// From a panel of one radiance on its front: as from 16 points of it.
+vec3 rectangleLight(LightRow light, Surface surface, vec3 pointWorld, vec3 normal, vec3 toViewer) {
+  const int SIDE = 4;
+  vec3 up = normalize(cross(light.cone.xyz, light.direction.xyz)) * light.cone.w, sum = vec3(0.0);
+  for (int i = 0; i < SIDE * SIDE; ++i) {
+    vec2 place = (vec2(i % SIDE, i / SIDE) + 0.5) * (2.0 / float(SIDE)) - 1.0;
+    vec3 offset = light.position.xyz + place.x * light.cone.xyz + place.y * up - pointWorld;
+    float distance2 = max(dot(offset, offset), 1e-8);
+    vec3 toLight = offset * inversesqrt(distance2);
+    float facing = max(dot(light.direction.xyz, -toLight), 0.0);
+    sum += facing / distance2 * reflectedShare(surface, normal, toViewer, toLight);
+  }
+  return light.intensity.rgb * sum / float(SIDE * SIDE);
+}
+
 vec3 environmentLight(Surface surface, vec3 normal, vec3 toViewer, float occlusion) {
   float nDotV = clamp(dot(normal, toViewer), 0.0, 1.0);
   vec3 f0 = mix(vec3(0.04), surface.baseColor, surface.metallic);
@@ -72,9 +87,13 @@ void main() {
     radiance = texelFetch(emission, pixel, 0).rgb + environmentLight(surface, normal, toViewer, properties.b);
     vec4 visible = texelFetch(shadow, pixel, 0);
     for (int i = 0; i < int(frame.size.z); ++i) {
+      float share = i < shadowedLights ? visible[i] : 1.0;
+      if (uint(lights[i].position.w) == LIGHT_RECTANGLE) {
+        radiance += share * rectangleLight(lights[i], surface, pointWorld, normal, toViewer);
+        continue;
+      }
       vec3 toLight;
-      vec3 irradiance = lightAt(lights[i], pointWorld, toLight);
-      if (i < shadowedLights) irradiance *= visible[i];
+      vec3 irradiance = share * lightAt(lights[i], pointWorld, toLight);
       radiance += irradiance * reflectedShare(surface, normal, toViewer, toLight);
     }
   }

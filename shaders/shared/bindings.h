@@ -13,7 +13,7 @@ SHARED_CONST uint kMaterialBinding = 1;
 SHARED_CONST uint kSdfInstanceBinding = 2;
 SHARED_CONST uint kSdfLevelBinding = 3;
 SHARED_CONST uint kIndirectionBinding = 4;
-SHARED_CONST uint kLightBinding = 5;
+SHARED_CONST uint kLightBinding = 1;       // of passes that know no materials
 SHARED_CONST uint kPassBufferABinding = 6; // what one pass alone uses
 SHARED_CONST uint kPassBufferBBinding = 7;
 SHARED_CONST uint kDeformSourceBinding = 0;
@@ -34,17 +34,18 @@ SHARED_CONST uint kFieldSweepBinding = 4;
 SHARED_CONST uint kFieldIdBinding = 4;
 SHARED_CONST uint kFieldCandidateBinding = 6;
 SHARED_CONST uint kFieldNodeBinding = 5;
+SHARED_CONST uint kNodeRowBinding = 7;
 SHARED_CONST uint kFieldSplatBinding = 6;
 SHARED_CONST uint kFieldSphereBinding = 6;
 SHARED_CONST uint kFieldTileBinding = 7;
 SHARED_CONST uint kFieldShownListBinding = 0; // and the two after it: lists of tiles that a view shows
 
 // Texture units
-SHARED_CONST uint kDistanceR8Unit = 0;
-SHARED_CONST uint kDistanceR16Unit = 1;
-SHARED_CONST uint kBrickBaseColorUnit = 2;
-SHARED_CONST uint kBrickMaterialUnit = 3;
-SHARED_CONST uint kBrickEmissionUnit = 4;
+SHARED_CONST uint kDistanceR8Unit = 24; // of bricks; beside the G-buffer's and the world field's
+SHARED_CONST uint kDistanceR16Unit = 25;
+SHARED_CONST uint kBrickBaseColorUnit = 26;
+SHARED_CONST uint kBrickMaterialUnit = 27;
+SHARED_CONST uint kBrickEmissionUnit = 28;
 SHARED_CONST uint kDepthMeshUnit = 5;
 SHARED_CONST uint kMaterialTextureUnit = 6; // and the four after it
 SHARED_CONST uint kDepthUnit = 0;           // of the passes that read the G-buffer
@@ -59,6 +60,8 @@ SHARED_CONST uint kEnvironmentBrdfUnit = 8;
 SHARED_CONST uint kColorUnit = 9;
 SHARED_CONST uint kOverdrawUnit = 10;
 SHARED_CONST uint kShadowUnit = 11;
+SHARED_CONST uint kShadowReadsUnit = 15;
+SHARED_CONST uint kShadowHalfUnit = 12;
 SHARED_CONST uint kWorldFieldUnit = 16; // of those that read the world field; a unit a cascade
 
 SHARED_END

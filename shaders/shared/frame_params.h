@@ -23,7 +23,8 @@ struct LightRow {
   vec4 position;  // world; w: kind (LIGHT_*)
   vec4 direction; // world, where it travels, unit; w: range in metres, 0 infinite
   vec4 intensity; // rgb lux or candela; w: radius in metres, of a sun's disk at one metre
-  vec4 cone;      // x: scale, y: offset of the spot's angular falloff
+  vec4 cone; // of a spot x: scale, y: offset of its angular falloff; of a rectangle xyz: half its width, w: half its
+             // height
 };
 SHARED_ASSERT_SIZE(LightRow, 64)
 
@@ -31,6 +32,7 @@ SHARED_CONST uint LIGHT_SUN = 0;
 SHARED_CONST uint LIGHT_POINT = 1;
 SHARED_CONST uint LIGHT_SPOT = 2;
 SHARED_CONST uint LIGHT_SPHERE = 3;
+SHARED_CONST uint LIGHT_RECTANGLE = 4; // its radius reaches its corners
 
 SHARED_CONST int MOST_SHADOWED_LIGHTS = 4; // the first ones; channels of the shadow texture
 
@@ -47,10 +49,12 @@ SHARED_CONST uint DEBUG_VIEW_KIND = 5;
 SHARED_CONST uint DEBUG_VIEW_STEPS = 6;
 SHARED_CONST uint DEBUG_VIEW_BRICKS = 7;
 SHARED_CONST uint DEBUG_VIEW_OVERDRAW = 8;
-SHARED_CONST uint DEBUG_VIEW_FIELD = 9; // this one and those behind it read the world field
+SHARED_CONST uint DEBUG_VIEW_FIELD = 9; // this one and the three behind it read the world field
 SHARED_CONST uint DEBUG_VIEW_FIELD_ID = 10;
 SHARED_CONST uint DEBUG_VIEW_FIELD_TILES = 11;
 SHARED_CONST uint DEBUG_VIEW_FIELD_SURFACE = 12;
+SHARED_CONST uint DEBUG_VIEW_SHADOW = 13;
+SHARED_CONST uint DEBUG_VIEW_SHADOW_READS = 14;
 
 SHARED_END
 

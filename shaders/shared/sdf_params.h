@@ -25,6 +25,9 @@ SHARED_ASSERT_SIZE(SdfLevel, 48)
 
 SHARED_CONST uint SDF_NO_ATTRIBUTES = 0xffffffffu;
 
+// In the table of nodes: no instance of it has bricks.
+SHARED_CONST uint NO_BRICKS = 0xffffffffu;
+
 // Indirection cell, as in field/brick_field.h, with the slot of the pool for the index.
 SHARED_CONST uint CELL_EMPTY = 0x80000000u;
 SHARED_CONST uint CELL_INSIDE = 0x40000000u;

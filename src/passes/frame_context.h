@@ -4,6 +4,7 @@
 #include "gpu/buffer.h"
 #include "gpu/texture.h"
 #include "passes/frame_targets.h"
+#include "passes/light/shadow_settings.h"
 #include "passes/visible_boxes.h"
 #include "resident/resident_scene.h"
 #include "resident/world_triangles.h"
@@ -26,7 +27,8 @@ struct FrameContext {
   bool countersOn = false;
   const WorldTriangles* worldTriangles = nullptr; ///< null: nobody asks for a world field
   const FieldFrame* field = nullptr;              ///< the same
-  int shadowRays = 0;                             ///< in a penumbra; 0: no shadows
+  const ShadowSettings* shadows = nullptr;        ///< null: none
+  bool countsShadowReads = false;                 ///< a pixel, for a view or the counters
 };
 
 } // namespace brickfield

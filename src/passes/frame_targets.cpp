@@ -22,6 +22,8 @@ FrameTargets::FrameTargets(glm::uvec2 sizePixels)
       id(layer("id", GL_R32UI, size)),
       trace(layer("trace", GL_RG32UI, size)),
       shadow(layer("shadow", GL_RGBA8, size)),
+      shadowHalf(layer("shadow_half", GL_RGBA8, (size + 1u) / 2u)),
+      shadowReads(layer("shadow_reads", GL_R32UI, size)),
       color(layer("color", GL_RGBA16F, size)),
       picture(layer("picture", GL_RGBA8, size)),
       boxOverdraw(layer("box_overdraw", GL_R16F, size)),
@@ -47,7 +49,7 @@ void FrameTargets::bindGBuffer() const {
 std::size_t FrameTargets::bytes() const {
   std::size_t sum = 0;
   for (const Texture* texture : {&depth, &depthMesh, &normalWorldOct, &albedo, &material, &emission, &id, &trace,
-                                 &shadow, &color, &picture, &boxOverdraw})
+                                 &shadow, &shadowHalf, &shadowReads, &color, &picture, &boxOverdraw})
     sum += texture->bytes();
   return sum;
 }

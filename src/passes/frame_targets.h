@@ -21,6 +21,8 @@ struct FrameTargets {
   Texture id;             ///< R32UI: node << 2 | kind
   Texture trace;          ///< RG32UI: trace steps, number of the brick that was hit + 1
   Texture shadow;         ///< RGBA8: visible shares of the first lights
+  Texture shadowHalf;     ///< RGBA8: the same of every second pixel of every second row
+  Texture shadowReads;    ///< R32UI: distances read for it; written in frames that count
   Texture color;          ///< RGBA16F: linear radiance
   Texture picture;        ///< RGBA8: after the tone curve
   Texture boxOverdraw;    ///< R16F

@@ -27,6 +27,8 @@ const char* resourceName(Resource resource) {
     return "box_overdraw";
   case Resource::Shadow:
     return "shadow";
+  case Resource::ShadowReads:
+    return "shadow_reads";
   case Resource::Color:
     return "color";
   case Resource::Picture:

@@ -20,7 +20,8 @@ enum class Resource : std::uint8_t {
   DepthMesh, ///< depth of the meshes alone, which ends the rays of SDF objects
   GBuffer,   ///< normal, albedo, material, emission, id, trace
   BoxOverdraw,
-  Shadow, ///< visible shares of lights
+  Shadow,      ///< visible shares of lights
+  ShadowReads, ///< what they cost
   Color,
   Picture,
   Counters,
@@ -32,7 +33,7 @@ enum class Resource : std::uint8_t {
   WorldFieldCoarse,  ///< unsigned, less the thickness
   WorldField,        ///< the volume that other passes read, and what it keeps from frame to frame
 };
-inline constexpr int kResourceCount = 21;
+inline constexpr int kResourceCount = 22;
 const char* resourceName(Resource resource);
 
 /// How the GPU touches it: decides the barrier after incoherent writes.

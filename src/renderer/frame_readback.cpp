@@ -1,6 +1,8 @@
 // Decodes what the G-buffer packs.
 #include "renderer/frame_readback.h"
 
+#include <algorithm>
+
 #include "shared/frame_params.h"
 
 namespace brickfield {
@@ -19,12 +21,15 @@ float rayParameterOfDepth(const View& view, const PrimaryRay& ray, float depth) 
 
 } // namespace
 
-FrameLayers readFrameLayers(const FrameTargets& targets, const View& view) {
+FrameLayers readFrameLayers(const FrameTargets& targets, const View& view, std::uint32_t shadowedLights) {
   const std::size_t width = targets.size.x, height = targets.size.y;
   const std::vector<float> color = targets.color.readFloats(), normals = targets.normalWorldOct.readFloats(),
                            depth = targets.depth.readFloats();
   const std::vector<std::uint8_t> albedo = targets.albedo.read<std::uint8_t>();
   const std::vector<std::uint32_t> ids = targets.id.read<std::uint32_t>(), trace = targets.trace.read<std::uint32_t>();
+
+  const std::vector<std::uint8_t> shadow =
+      shadowedLights > 0 ? targets.shadow.read<std::uint8_t>() : std::vector<std::uint8_t>();
 
   FrameLayers layers;
   layers.size = targets.size;
@@ -37,6 +42,7 @@ FrameLayers readFrameLayers(const FrameTargets& targets, const View& view) {
   layers.id.assign(pixels, -1);
   layers.kind.assign(pixels, SurfaceKind::None);
   layers.steps.assign(pixels, 0.0f);
+  layers.shadow.assign(shadowedLights, std::vector<float>(pixels, 1.0f));
   for (std::size_t y = 0; y < height; ++y)
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t source = (height - 1 - y) * width + x, p = y * width + x;
@@ -52,8 +58,20 @@ FrameLayers readFrameLayers(const FrameTargets& targets, const View& view) {
       layers.id[p] = static_cast<std::int32_t>(ids[source] >> 2);
       layers.kind[p] = kind == shared::KIND_MESH ? SurfaceKind::Mesh : SurfaceKind::Sdf;
       layers.steps[p] = static_cast<float>(trace[2 * source]);
+      for (std::size_t light = 0; light < shadowedLights; ++light)
+        layers.shadow[light][p] = static_cast<float>(shadow[4 * source + light]) / 255.0f;
     }
   return layers;
+}
+
+std::vector<std::uint32_t> readFrameShadowReads(const FrameTargets& targets) {
+  const std::size_t width = targets.size.x, height = targets.size.y;
+  std::vector<std::uint32_t> reads = targets.shadowReads.read<std::uint32_t>();
+  for (std::size_t y = 0; y < height / 2; ++y)
+    std::swap_ranges(reads.begin() + static_cast<std::ptrdiff_t>(y * width),
+                     reads.begin() + static_cast<std::ptrdiff_t>((y + 1) * width),
+                     reads.begin() + static_cast<std::ptrdiff_t>((height - 1 - y) * width));
+  return reads;
 }
 
 std::vector<std::uint8_t> readFramePicture(const FrameTargets& targets) {

@@ -11,7 +11,12 @@
 namespace brickfield {
 
 /// Waits for the GPU. Depth becomes metres along the pixel's ray.
-FrameLayers readFrameLayers(const FrameTargets& targets, const View& view);
+///
+/// shadowedLights  whose layers are made
+FrameLayers readFrameLayers(const FrameTargets& targets, const View& view, std::uint32_t shadowedLights);
+
+/// Of each pixel, rows from the top.
+std::vector<std::uint32_t> readFrameShadowReads(const FrameTargets& targets);
 
 /// RGB8, rows from the top.
 std::vector<std::uint8_t> readFramePicture(const FrameTargets& targets);

@@ -135,9 +135,11 @@ struct Renderer::Parts {
 namespace {
 
 std::vector<ResourceUse> providedByHost() {
-  return {{Resource::FrameParams, Access::Upload},     {Resource::MeshVertices, Access::Upload},
-          {Resource::MeshDraws, Access::Upload},       {Resource::SdfScene, Access::Upload},
-          {Resource::Environment, Access::ImageStore}, {Resource::Counters, Access::Upload}};
+  return {
+      {Resource::FrameParams, Access::Upload},     {Resource::MeshVertices, Access::Upload},
+      {Resource::MeshDraws, Access::Upload},       {Resource::SdfScene, Access::Upload},
+      {Resource::Environment, Access::ImageStore}, {Resource::Counters, Access::Upload},
+      {Resource::Shadow, Access::Upload},          {Resource::ShadowReads, Access::Upload}}; // unused without shadows
 }
 
 } // namespace
@@ -208,7 +210,7 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
   const FrameShape shape{settings.drawOrder == DrawOrder::BoxesFirstAllReversed,
                          context.field && context.field->exact,
                          context.field && context.field->rtsdf,
-                         context.shadowRays > 0,
+                         context.shadows != nullptr,
                          !shown,
                          shown && !readsField,
                          readsField};
@@ -307,8 +309,8 @@ void Renderer::render(const View& view) {
                              parts.settings.countersOn,
                              field ? &parts.field->triangles() : nullptr,
                              field,
-                             parts.settings.shadows.method == ShadowMethod::Field ? parts.settings.shadows.penumbraRays
-                                                                                  : 0};
+                             parts.settings.shadows.method != ShadowMethod::None ? &parts.settings.shadows : nullptr,
+                             parts.settings.view == "shadow-reads"};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDisable(GL_BLEND);
   glEnable(GL_FRAMEBUFFER_SRGB); // albedo is stored as sRGB; the other targets are linear and unaffected
@@ -372,7 +374,15 @@ std::vector<std::string> framePassNames() {
 
 FrameLayers Renderer::readLayers() const {
   if (!parts_->targets) throw Failure("renderer: no frame was rendered");
-  return readFrameLayers(*parts_->targets, parts_->view);
+  const bool isShadowed = parts_->settings.shadows.method != ShadowMethod::None;
+  const std::uint32_t lights = isShadowed ? parts_->scene->lightCount() : 0;
+  return readFrameLayers(*parts_->targets, parts_->view,
+                         std::min(lights, static_cast<std::uint32_t>(shared::MOST_SHADOWED_LIGHTS)));
+}
+
+std::vector<std::uint32_t> Renderer::readShadowReads() const {
+  if (!parts_->targets) throw Failure("renderer: no frame was rendered");
+  return readFrameShadowReads(*parts_->targets);
 }
 
 std::vector<std::uint8_t> Renderer::readPicture() const {

@@ -70,8 +70,10 @@ public:
   /// error Failure: no scene, pose or lighting was set; picture larger than the device allows
   void render(const View& view);
 
-  /// Reads the frame back; rows from the top.
+  /// Reads the frame back; rows from the top. With the shadow layers of a frame that has shadows.
   FrameLayers readLayers() const;
+  /// Distances read at each pixel for the shadows of a frame that counted; rows from the top.
+  std::vector<std::uint32_t> readShadowReads() const;
   /// The picture after the tone curve, or the debug view: RGB8, rows from the top.
   std::vector<std::uint8_t> readPicture() const;
   /// Times, counts and memory of the last frame.

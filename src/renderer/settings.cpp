@@ -53,7 +53,7 @@ const char* fieldMethodName(FieldMethod method) {
 }
 
 const std::vector<DebugView>& debugViews() {
-  constexpr float kStepsRange = 64, kOverdrawRange = 16;
+  constexpr float kStepsRange = 64, kOverdrawRange = 16, kReadsRange = 128;
   static const std::vector<DebugView> views{
       {"depth", "distance from the eye, near is bright", shared::DEBUG_VIEW_DEPTH},
       {"normal", "shading normal in world space, -1..1 as 0..1", shared::DEBUG_VIEW_NORMAL},
@@ -74,6 +74,10 @@ const std::vector<DebugView>& debugViews() {
        shared::DEBUG_VIEW_FIELD_TILES, 0, true, true, true},
       {"field-surface", "the world field's own surface from the camera, traced in it alone",
        shared::DEBUG_VIEW_FIELD_SURFACE, 0, true, false, false},
+      {"shadow", "visible shares of the first three lights, a channel each; of one light alone as grey",
+       shared::DEBUG_VIEW_SHADOW, 0, false, false, false, true},
+      {"shadow-reads", fmt::format("distances read for the shadows at each pixel, blue 0 to red {}", kReadsRange),
+       shared::DEBUG_VIEW_SHADOW_READS, kReadsRange, false, false, false, true},
   };
   return views;
 }
@@ -91,9 +95,15 @@ void checkSettings(const RendererSettings& settings) {
     throw BadInput("shadows", "field", "needs a world field, which is off");
   if (settings.shadows.penumbraRays < 1 || settings.shadows.penumbraRays > 64)
     throw BadInput("shadows", fmt::format("{} rays", settings.shadows.penumbraRays), "is not 1 to 64");
+  if (!(settings.shadows.softness >= 0 && settings.shadows.softness <= 4))
+    throw BadInput("shadows", fmt::format("softness {}", settings.shadows.softness), "is not 0 to 4");
+  if (!(settings.shadows.mostStep > 0) || !std::isfinite(settings.shadows.mostStep))
+    throw BadInput("shadows", fmt::format("step {}", settings.shadows.mostStep), "is not above 0");
   if (settings.view.empty()) return;
   const DebugView* view = findView(settings.view);
   if (!view) throw BadInput("view", settings.view, "no such view");
+  if (view->needsShadows && settings.shadows.method == ShadowMethod::None)
+    throw BadInput("view", settings.view, "shows shadows, of which there are none; --shadows field makes some");
   if (view->readsField) checkFieldView(*view, settings);
 }
 

@@ -8,6 +8,7 @@
 
 #include "field/field_windows.h"
 #include "passes/frame_context.h"
+#include "passes/light/shadow_settings.h"
 #include "passes/world_field/rtsdf_settings.h"
 
 namespace brickfield {
@@ -34,16 +35,6 @@ struct FieldSlice {
   int cascade = -1;                    ///< its whole window; -1: the finest at each point, the scene's bounds
 };
 
-/// Shadows of the lights.
-enum class ShadowMethod : std::uint8_t { None, Field };
-
-struct ShadowSettings {
-  ShadowMethod method = ShadowMethod::None;
-  int penumbraRays = 16; ///< of a point that sees a part of a light, 1 to 64
-
-  bool operator==(const ShadowSettings&) const = default;
-};
-
 struct RendererSettings {
   float exposureEv = 0;               ///< stops; at 0 a white diffuse surface under π lux has radiance 1
   std::uint32_t maxTraceSteps = 2048; ///< of a ray in one object; running out is a miss and is counted
@@ -51,7 +42,7 @@ struct RendererSettings {
   DrawOrder drawOrder = DrawOrder::MeshesFirst;
   bool countersOn = false; ///< counts fragments, steps and brick reads; slower
   std::string view;        ///< one of debugViews(); empty: the lit picture
-  ShadowSettings shadows; ///< of the first shared::MOST_SHADOWED_LIGHTS lights; Field makes a world field in each frame
+  ShadowSettings shadows;  ///< Field makes a world field in each frame
   FieldSettings worldField;
   FieldSlice fieldSlice;
 };
@@ -65,6 +56,7 @@ struct DebugView {
   bool readsField = false; ///< a view of the world field
   bool isSlice = false;    ///< that cuts it by FieldSlice
   bool isExactOnly = false;
+  bool needsShadows = false; ///< shows them or what they cost
 };
 const std::vector<DebugView>& debugViews();
 /// Null: no such view, or none.

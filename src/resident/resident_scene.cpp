@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "shared/bindings.h"
@@ -41,11 +42,43 @@ bool isDoubleSidedNode(const Scene& scene, int mesh) {
   });
 }
 
+/// Nothing where the transform flattens space.
+std::optional<shared::SdfInstance> sdfInstanceOf(const PosedInstance& instance, const ResidentField& field,
+                                                 bool doubleSided) {
+  // In double precision: the translation of a small object far from the origin would lose its voxels.
+  const glm::dmat4 worldFromObject(instance.worldFromObject);
+  if (glm::determinant(glm::dmat3(worldFromObject)) == 0.0) return {};
+  const double h = field.voxelSizeObject;
+  glm::dmat4 objectFromGrid(1.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    objectFromGrid[axis][axis] = h;
+    objectFromGrid[3][axis] = field.originObject[axis];
+  }
+  const glm::dmat4 worldFromGrid = worldFromObject * objectFromGrid;
+  const glm::dmat4 gridFromWorld = glm::inverse(worldFromGrid);
+  if (!isFinite(glm::mat4(gridFromWorld))) return {};
+
+  shared::SdfInstance row{};
+  const glm::mat4 rowsOfGrid(glm::transpose(gridFromWorld)), rowsOfWorld(glm::transpose(worldFromGrid));
+  for (int axis = 0; axis < 3; ++axis) {
+    row.gridFromWorld[axis] = rowsOfGrid[axis];
+    row.worldFromGrid[axis] = rowsOfWorld[axis];
+  }
+  row.boxMin = glm::vec4((field.boundsObject.min - field.originObject) / field.voxelSizeObject,
+                         scaleRange(glm::mat4(worldFromGrid)).y);
+  row.boxMax = glm::vec4((field.boundsObject.max - field.originObject) / field.voxelSizeObject,
+                         scaleRange(glm::mat4(worldFromGrid)).x);
+  row.ids = {instance.node, static_cast<int>(field.firstLevel), static_cast<int>(field.levelCount),
+             static_cast<int>(doubleSided ? shared::SDF_DOUBLE_SIDED : 0u)};
+  return row;
+}
+
 } // namespace
 
 ResidentScene::ResidentScene(const Scene& scene, const SceneFields& fields)
-    : meshes_(scene), materials_(scene), fieldOfNode_(fields.fieldOfNode) {
+    : meshes_(scene), materials_(scene), fieldOfNode_(fields.fieldOfNode), lightFieldOfNode_(fields.lightFieldOfNode) {
   fieldOfNode_.resize(scene.nodes.size(), -1);
+  lightFieldOfNode_.resize(scene.nodes.size(), -1);
   atlas_.reserve(fields.fields);
   for (const BrickField& field : fields.fields) fieldIds_.push_back(atlas_.add(field));
 }
@@ -118,53 +151,42 @@ void ResidentScene::finishDraws(std::vector<PendingDraw>& pending) {
   glVertexArrayBindingDivisor(array.id(), kDrawBinding, 1);
 }
 
-void ResidentScene::addSdfInstance(const PosedInstance& instance, const ResidentField& field, bool doubleSided) {
-  // In double precision: the translation of a small object far from the origin would lose its voxels.
-  const glm::dmat4 worldFromObject(instance.worldFromObject);
-  if (glm::determinant(glm::dmat3(worldFromObject)) == 0.0) return;
-  const double h = field.voxelSizeObject;
-  glm::dmat4 objectFromGrid(1.0);
-  for (int axis = 0; axis < 3; ++axis) {
-    objectFromGrid[axis][axis] = h;
-    objectFromGrid[3][axis] = field.originObject[axis];
+void ResidentScene::uploadInstances(std::size_t nodes) {
+  std::vector<shared::SdfInstance> rows = sdfRows_;
+  rows.insert(rows.end(), lightRows_.begin(), lightRows_.end());
+  renew(sdfInstances_, "sdf_instances", rows);
+  constexpr std::uint32_t kMostRows = 255, kCountShift = 24; // as in shaders/lib/near_bricks.glsl
+  std::vector<std::uint32_t> rowsOfNode(std::max(nodes, std::size_t{1}), shared::NO_BRICKS);
+  for (std::size_t row = 0; row < rows.size(); ++row) { // a node's instances follow each other
+    std::uint32_t& own = rowsOfNode[static_cast<std::size_t>(rows[row].ids.x)];
+    if (own == shared::NO_BRICKS)
+      own = static_cast<std::uint32_t>(row) | 1u << kCountShift;
+    else if (own >> kCountShift < kMostRows)
+      own += 1u << kCountShift;
   }
-  const glm::dmat4 worldFromGrid = worldFromObject * objectFromGrid;
-  const glm::dmat4 gridFromWorld = glm::inverse(worldFromGrid);
-  if (!isFinite(glm::mat4(gridFromWorld))) return;
-
-  shared::SdfInstance row{};
-  const glm::mat4 rowsOfGrid(glm::transpose(gridFromWorld)), rowsOfWorld(glm::transpose(worldFromGrid));
-  for (int axis = 0; axis < 3; ++axis) {
-    row.gridFromWorld[axis] = rowsOfGrid[axis];
-    row.worldFromGrid[axis] = rowsOfWorld[axis];
-  }
-  row.boxMin = glm::vec4((field.boundsObject.min - field.originObject) / field.voxelSizeObject,
-                         scaleRange(glm::mat4(worldFromGrid)).y);
-  row.boxMax = glm::vec4((field.boundsObject.max - field.originObject) / field.voxelSizeObject,
-                         scaleRange(glm::mat4(worldFromGrid)).x);
-  row.ids = {instance.node, static_cast<int>(field.firstLevel), static_cast<int>(field.levelCount),
-             static_cast<int>(doubleSided ? shared::SDF_DOUBLE_SIDED : 0u)};
-  sdfRows_.push_back(row);
+  renew(nodeRows_, "node_rows", rowsOfNode);
 }
 
 void ResidentScene::setPose(const Scene& scene, const Pose& pose) {
   deformJobs_.clear();
   sdfRows_.clear();
+  lightRows_.clear();
   joints_.clear();
   weights_.clear();
   deformedVertices_ = 0;
   std::vector<PendingDraw> pending;
   for (std::uint32_t i = 0; i < pose.instances.size(); ++i) {
     const PosedInstance& instance = pose.instances[i];
-    const int field = fieldOfNode_[static_cast<std::size_t>(instance.node)];
-    if (field >= 0)
-      addSdfInstance(instance, atlas_.field(fieldIds_[static_cast<std::size_t>(field)]),
-                     isDoubleSidedNode(scene, instance.mesh));
-    else
-      addMeshDraws(pose, i, pending);
+    const auto node = static_cast<std::size_t>(instance.node);
+    const int field = fieldOfNode_[node], bricks = field >= 0 ? field : lightFieldOfNode_[node];
+    if (field < 0) addMeshDraws(pose, i, pending);
+    if (bricks < 0) continue;
+    const std::optional<shared::SdfInstance> row = sdfInstanceOf(
+        instance, atlas_.field(fieldIds_[static_cast<std::size_t>(bricks)]), isDoubleSidedNode(scene, instance.mesh));
+    if (row) (field >= 0 ? sdfRows_ : lightRows_).push_back(*row);
   }
   finishDraws(pending);
-  renew(sdfInstances_, "sdf_instances", sdfRows_);
+  uploadInstances(scene.nodes.size());
   renew(jointMatrices_, "joint_matrices", joints_);
   renew(morphWeights_, "morph_weights", weights_);
   sdfInstanceCount_ = static_cast<std::uint32_t>(sdfRows_.size());
@@ -175,18 +197,22 @@ void ResidentScene::setLighting(const Lighting& lighting) {
   for (const PosedLight& posed : lighting.lights) {
     const Light& light = posed.light;
     shared::LightRow row{};
-    const std::uint32_t kind = light.kind == LightKind::Sun     ? shared::LIGHT_SUN
-                               : light.kind == LightKind::Point ? shared::LIGHT_POINT
-                               : light.kind == LightKind::Spot  ? shared::LIGHT_SPOT
-                                                                : shared::LIGHT_SPHERE;
+    const std::uint32_t kind = light.kind == LightKind::Sun         ? shared::LIGHT_SUN
+                               : light.kind == LightKind::Point     ? shared::LIGHT_POINT
+                               : light.kind == LightKind::Spot      ? shared::LIGHT_SPOT
+                               : light.kind == LightKind::Rectangle ? shared::LIGHT_RECTANGLE
+                                                                    : shared::LIGHT_SPHERE;
     row.position = glm::vec4(posed.positionWorld, static_cast<float>(kind));
     row.direction = glm::vec4(posed.directionWorld, light.range);
-    const float radius = light.kind == LightKind::Sun ? std::tan(0.5f * light.angleRadians) : light.radius;
+    float radius = light.kind == LightKind::Sun ? std::tan(0.5f * light.angleRadians) : light.radius;
+    if (light.kind == LightKind::Rectangle) radius = 0.5f * glm::length(light.size);
     row.intensity = glm::vec4(light.color * light.intensity, radius);
     // KHR_lights_punctual: the angular falloff as scale and offset of the cosine; 0.001 is the extension's guard.
     const float cosInner = std::cos(light.innerConeRadians), cosOuter = std::cos(light.outerConeRadians);
     row.cone.x = 1.0f / std::max(0.001f, cosInner - cosOuter);
     row.cone.y = -cosOuter * row.cone.x;
+    if (light.kind == LightKind::Rectangle)
+      row.cone = glm::vec4(0.5f * light.size.x * posed.rightWorld, 0.5f * light.size.y);
     rows.push_back(row);
   }
   renew(lights_, "lights", rows);
@@ -204,7 +230,8 @@ void ResidentScene::bindDeform() const {
 
 std::size_t ResidentScene::tableBytes() const {
   std::size_t sum = 0;
-  for (const Buffer* table : {&meshDraws_, &drawIndices_, &sdfInstances_, &lights_, &jointMatrices_, &morphWeights_})
+  for (const Buffer* table :
+       {&meshDraws_, &drawIndices_, &sdfInstances_, &nodeRows_, &lights_, &jointMatrices_, &morphWeights_})
     sum += table->bytes();
   return sum;
 }

@@ -17,6 +17,7 @@ namespace brickfield {
 struct SceneFields {
   std::vector<BrickField> fields;
   std::vector<int> fieldOfNode;
+  std::vector<int> lightFieldOfNode{}; ///< of meshes: bricks that shadows alone read; empty: none has any
 };
 
 /// Consecutive draws of one primitive with one state.
@@ -50,6 +51,7 @@ public:
   const std::vector<MeshBatch>& batches() const { return batches_; }
   const std::vector<DeformJob>& deformJobs() const { return deformJobs_; }
   std::uint32_t sdfInstanceCount() const { return sdfInstanceCount_; }
+  bool hasBricks() const { return sdfInstanceCount_ > 0 || !lightRows_.empty(); } ///< any instance, for light too
   const std::vector<shared::SdfInstance>& sdfInstances() const { return sdfRows_; }
   std::uint32_t meshDrawCount() const { return meshDrawCount_; }
   std::uint32_t lightCount() const { return lightCount_; }
@@ -57,6 +59,8 @@ public:
 
   void bindMeshDraws() const { meshDraws_.bindStorage(shared::kMeshDrawBinding); }
   void bindSdfInstances() const { sdfInstances_.bindStorage(shared::kSdfInstanceBinding); }
+  /// Of each node, which rows of the instances are its own; behind the SDF objects' follow those of bricks for light.
+  void bindNodeRows() const { nodeRows_.bindStorage(shared::kNodeRowBinding); }
   void bindLights() const { lights_.bindStorage(shared::kLightBinding); }
   void bindDeform() const;
   /// Of what a pose renews: draws, instances, joints, weights, lights.
@@ -66,22 +70,22 @@ private:
   struct PendingDraw;
   void addMeshDraws(const Pose& pose, std::uint32_t number, std::vector<PendingDraw>& pending);
   std::uint32_t addDeformJob(const PosedInstance& instance, const PooledPrimitive& primitive, DeformJob job);
-  void addSdfInstance(const PosedInstance& instance, const ResidentField& field, bool doubleSided);
+  void uploadInstances(std::size_t nodes);
   void finishDraws(std::vector<PendingDraw>& pending);
 
   MeshPool meshes_;
   MaterialTable materials_;
   BrickAtlas atlas_;
   std::vector<BrickAtlas::FieldId> fieldIds_;
-  std::vector<int> fieldOfNode_;
+  std::vector<int> fieldOfNode_, lightFieldOfNode_;
 
   std::vector<MeshBatch> batches_;
   std::vector<DeformJob> deformJobs_;
-  std::vector<shared::SdfInstance> sdfRows_;
+  std::vector<shared::SdfInstance> sdfRows_, lightRows_;
   std::vector<glm::mat4> joints_;
   std::vector<float> weights_;
   std::uint32_t deformedVertices_ = 0;
-  Buffer meshDraws_, drawIndices_, sdfInstances_, lights_, jointMatrices_, morphWeights_;
+  Buffer meshDraws_, drawIndices_, sdfInstances_, nodeRows_, lights_, jointMatrices_, morphWeights_;
   std::uint32_t sdfInstanceCount_ = 0, meshDrawCount_ = 0, lightCount_ = 0;
 };
 

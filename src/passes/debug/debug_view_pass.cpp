@@ -11,13 +11,17 @@ PassDeclaration DebugViewPass::declare() {
           {{Resource::FrameParams, Access::Uniform},
            {Resource::Depth, Access::Sampled},
            {Resource::GBuffer, Access::Sampled},
-           {Resource::BoxOverdraw, Access::Sampled}},
+           {Resource::BoxOverdraw, Access::Sampled},
+           {Resource::Shadow, Access::Sampled},
+           {Resource::ShadowReads, Access::Sampled}},
           {{Resource::Picture, Access::ImageStore}}};
 }
 
 void DebugViewPass::record(const FrameContext& context) {
   context.targets.bindGBuffer();
   context.targets.boxOverdraw.bind(shared::kOverdrawUnit);
+  context.targets.shadow.bind(shared::kShadowUnit);
+  context.targets.shadowReads.bind(shared::kShadowReadsUnit);
   context.targets.picture.bindImage(0, 0, GL_WRITE_ONLY);
   program_->dispatchOver({context.targets.picture.width(), context.targets.picture.height(), 1});
 }

@@ -1,35 +1,72 @@
-// One dispatch over the picture for all lights: they share the reads of the G-buffer.
+// One dispatch over the picture for all lights: they share the reads of the G-buffer. At half resolution two: every
+// fourth pixel, then what lies between.
 #include "passes/light/field_shadow_pass.h"
 
+#include "gpu/gl.h"
 #include "passes/world_field/field_frame.h"
 
 namespace brickfield {
 
-FieldShadowPass::FieldShadowPass(ShaderLibrary& shaders)
-    : program_(shaders.load({"field_shadow", {{GL_COMPUTE_SHADER, "passes/field_shadow.comp.glsl"}}, {}, {}})),
-      countingProgram_(shaders.load({"field_shadow_counting",
-                                     {{GL_COMPUTE_SHADER, "passes/field_shadow.comp.glsl"}},
-                                     {{"COUNTERS_ON", "1"}},
-                                     {}})) {}
+FieldShadowPass::FieldShadowPass(ShaderLibrary& shaders) : shaders_(&shaders) {}
 
 PassDeclaration FieldShadowPass::declare() {
   return {"field_shadow",
           {{Resource::FrameParams, Access::Uniform},
            {Resource::Depth, Access::Sampled},
            {Resource::GBuffer, Access::Sampled},
-           {Resource::WorldField, Access::Sampled}},
-          {{Resource::Shadow, Access::ImageStore}, {Resource::Counters, Access::StorageWrite}}};
+           {Resource::SdfScene, Access::StorageRead},
+           {Resource::WorldField, Access::Sampled},
+           {Resource::WorldField, Access::StorageRead}},
+          {{Resource::Shadow, Access::ImageStore},
+           {Resource::ShadowReads, Access::ImageStore},
+           {Resource::Counters, Access::StorageWrite}}};
+}
+
+Program& FieldShadowPass::choose(const FrameContext& context, bool counts) {
+  const ShadowSettings& settings = *context.shadows;
+  const bool isOurs = settings.estimator == ShadowEstimator::Rays;
+  const bool hasBricks = settings.nearBricks && context.field->exact && context.scene.hasBricks();
+  const Source source = !isOurs ? kPublished : hasBricks ? kBricks : kField;
+  std::shared_ptr<Program>& program = programs_[source][counts];
+  const auto load = [&](const char* label, const char* stage) {
+    if (counts) return shaders_->load({label, {{GL_COMPUTE_SHADER, stage}}, {{"COUNTERS_ON", "1"}}, {}});
+    return shaders_->load({label, {{GL_COMPUTE_SHADER, stage}}, {}, {}});
+  };
+  if (program) return *program;
+  if (source == kField) program = load("field_shadow", "passes/field_shadow.comp.glsl");
+  if (source == kBricks) program = load("brick_shadow", "passes/brick_shadow.comp.glsl");
+  if (source == kPublished) program = load("published_shadow", "passes/published_shadow.comp.glsl");
+  return *program;
 }
 
 void FieldShadowPass::record(const FrameContext& context) {
+  const ShadowSettings& settings = *context.shadows;
+  const bool counts = context.countersOn || context.countsShadowReads;
+  Program& program = choose(context, counts);
+  context.scene.atlas().bind();
+  context.scene.bindSdfInstances();
+  context.scene.bindNodeRows();
   bindWorldField(*context.field);
   context.targets.bindGBuffer();
   context.scene.bindLights();
   context.counters.bindStorage(shared::kPassBufferABinding);
-  context.targets.shadow.bindImage(0, 0, GL_WRITE_ONLY);
-  Program& program = context.countersOn ? *countingProgram_ : *program_;
-  program.set("raysOfPenumbra", context.shadowRays);
-  program.dispatchOver({context.targets.shadow.width(), context.targets.shadow.height(), 1});
+  if (counts) context.targets.shadowReads.bindImage(1, 0, GL_READ_WRITE);
+  program.set("raysOfPenumbra", settings.penumbraRays);
+  program.set("softness", settings.softness);
+  program.set("estimator", static_cast<std::uint32_t>(settings.estimator));
+  program.set("mostStep", settings.mostStep);
+  program.set("seed", settings.seed);
+  const auto run = [&](const Texture& target, std::uint32_t step) {
+    target.bindImage(0, 0, GL_WRITE_ONLY);
+    program.set("resolutionStep", step);
+    program.dispatchOver({target.width(), target.height(), 1});
+  };
+  constexpr std::uint32_t kAll = 0, kHalf = 1, kFill = 2; // as in shaders/lib/shadow_frame.glsl
+  if (!settings.halfResolution) return run(context.targets.shadow, kAll);
+  run(context.targets.shadowHalf, kHalf);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  context.targets.shadowHalf.bind(shared::kShadowHalfUnit);
+  run(context.targets.shadow, kFill);
 }
 
 } // namespace brickfield

@@ -1,5 +1,7 @@
-// Soft shadows of the first lights by marching the world field.
+// Soft shadows of the first lights by marching the world field, and bricks where objects have any.
 #pragma once
+
+#include <array>
 
 #include "gpu/shader_library.h"
 #include "passes/frame_context.h"
@@ -15,7 +17,11 @@ public:
   void record(const FrameContext& context);
 
 private:
-  std::shared_ptr<Program> program_, countingProgram_;
+  enum Source : std::size_t { kField, kBricks, kPublished, kSources };
+  Program& choose(const FrameContext& context, bool counts);
+
+  ShaderLibrary* shaders_;
+  std::array<std::array<std::shared_ptr<Program>, 2>, kSources> programs_; ///< plain, counting; made when first used
 };
 
 } // namespace brickfield

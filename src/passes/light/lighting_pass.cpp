@@ -13,6 +13,7 @@ PassDeclaration LightingPass::declare() {
           {{Resource::FrameParams, Access::Uniform},
            {Resource::Depth, Access::Sampled},
            {Resource::GBuffer, Access::Sampled},
+           {Resource::Shadow, Access::Sampled},
            {Resource::Environment, Access::Sampled}},
           {{Resource::Color, Access::ImageStore}}};
 }
@@ -23,7 +24,7 @@ void LightingPass::record(const FrameContext& context) {
   context.environmentBrdf.bind(shared::kEnvironmentBrdfUnit);
   context.scene.bindLights();
   context.targets.shadow.bind(shared::kShadowUnit);
-  const std::uint32_t shadowed = context.shadowRays > 0 ? context.scene.lightCount() : 0;
+  const std::uint32_t shadowed = context.shadows ? context.scene.lightCount() : 0;
   program_->set("shadowedLights", std::min(static_cast<int>(shadowed), shared::MOST_SHADOWED_LIGHTS));
   context.targets.color.bindImage(0, 0, GL_WRITE_ONLY);
   program_->dispatchOver({context.targets.color.width(), context.targets.color.height(), 1});

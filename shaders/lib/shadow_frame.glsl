@@ -1,0 +1,121 @@
+// The frame of all passes that march shadows: which pixel, which lights, where the shares go, one channel a light. The
+// pass that includes it says how much of a light is seen.
+//
+// At half resolution every second pixel of every second row is marched first; a pixel between them takes what its
+// neighbours on the same plane say, and is marched itself where there are none or they disagree.
+#include "lib/gbuffer.glsl"
+#include "lib/shadow_cone.glsl"
+#include "shared/sdf_params.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(std430, binding = kLightBinding) readonly buffer LightBlock { LightRow lights[]; };
+layout(binding = kShadowHalfUnit) uniform sampler2D shadow_half_read;
+layout(binding = 0, rgba8) writeonly uniform image2D shadow; // of the step: all pixels, or every fourth
+#ifdef COUNTERS_ON
+layout(std430, binding = kPassBufferABinding) buffer CounterBlock { uint counters[]; };
+layout(binding = 1, r32ui) uniform uimage2D shadow_reads;
+#endif
+
+const uint STEP_ALL = 0u, STEP_HALF = 1u, STEP_FILL = 2u;
+uniform uint resolutionStep;
+
+// How much of the light the cone leads to.
+float visibleShare(ShadowCone cone, ivec2 pixel, int light);
+// Distances that this thread read.
+uint readsOfThread();
+// Metres: what a reading there is not finer than.
+float grainAt(vec3 pointAnchored);
+
+struct ShadowedPixel {
+  vec3 pointEye;
+  vec3 normal;
+  float away; // from the eye, metres
+  bool isSurface;
+};
+
+ShadowedPixel shadowedPixel(ivec2 pixel) {
+  vec3 originEye, directionWorld;
+  viewRay(ndcFromPixel(vec2(pixel) + 0.5), originEye, directionWorld);
+  float t = rayParameterOfDepth(originEye, directionWorld, texelFetch(depth, pixel, 0).r);
+  vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).zw);
+  return ShadowedPixel(originEye + t * directionWorld, normal, t, kindOfId(texelFetch(id, pixel, 0).r) != KIND_NONE);
+}
+
+ShadowCone coneTo(LightRow light, ShadowedPixel pixel, float grain) {
+  ShadowCone cone;
+  cone.origin = pixel.pointEye + frame.eyeAnchored.xyz;
+  cone.normal = pixel.normal;
+  cone.grain = grain;
+  cone.isRectangle = uint(light.position.w) == LIGHT_RECTANGLE;
+  if (uint(light.position.w) == LIGHT_SUN) {
+    cone.axis = -light.direction.xyz;
+    cone.spread = light.intensity.w;
+    cone.lightAt = 3.4e38;
+  } else {
+    vec3 way = light.position.xyz - frame.eyeWorld.xyz - pixel.pointEye;
+    float away = max(length(way), 1e-6), radius = light.intensity.w;
+    cone.axis = way / away;
+    cone.lightAt = away;
+    cone.spread = cone.isRectangle ? radius / away : radius * inversesqrt(max(away * away - radius * radius, 0.01 * radius * radius));
+  }
+  axesAcross(cone.axis, cone.right, cone.up);
+  cone.right *= cone.spread;
+  cone.up *= cone.spread;
+  if (cone.isRectangle) {
+    cone.right = light.cone.xyz / cone.lightAt;
+    cone.up = normalize(cross(light.cone.xyz, light.direction.xyz)) * (light.cone.w / cone.lightAt);
+  }
+  float before = cone.isRectangle ? grain : light.intensity.w; // the light begins
+  cone.end = min(max(cone.lightAt - before, 0.0), leavesField(cone.origin, cone.axis));
+  return cone;
+}
+
+vec4 marchPixel(ivec2 pixel) {
+  vec4 visible = vec4(1.0);
+  ShadowedPixel surface = shadowedPixel(pixel);
+  if (!surface.isSurface) return visible;
+  float grain = grainAt(surface.pointEye + frame.eyeAnchored.xyz);
+  for (int i = 0; i < min(int(frame.size.z), MOST_SHADOWED_LIGHTS); ++i)
+    visible[i] = visibleShare(coneTo(lights[i], surface, grain), pixel, i);
+  return visible;
+}
+
+// Of the neighbours that were marched, by how near they are in the picture. False: none is on the pixel's plane, or
+// they are too far apart.
+bool fillPixel(ivec2 pixel, out vec4 visible) {
+  const float PLANE = 0.004, SAME_NORMAL = 0.96, MOST_DIFFERENCE = 0.1;
+  ivec2 first = pixel >> 1, last = textureSize(shadow_half_read, 0) - 1;
+  ShadowedPixel surface = shadowedPixel(pixel);
+  vec4 sum = vec4(0.0), least = vec4(1.0), most = vec4(0.0);
+  float weights = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 at = min(first + ivec2(i & 1, i >> 1) * (pixel & 1), last);
+    ShadowedPixel other = shadowedPixel(2 * at);
+    if (other.isSurface != surface.isSurface) continue;
+    if (surface.isSurface && (dot(surface.normal, other.normal) < SAME_NORMAL ||
+                              abs(dot(surface.normal, other.pointEye - surface.pointEye)) > PLANE * surface.away))
+      continue;
+    vec4 value = texelFetch(shadow_half_read, at, 0);
+    sum += value;
+    weights += 1.0;
+    least = min(least, value);
+    most = max(most, value);
+  }
+  visible = sum / max(weights, 1.0);
+  return weights > 0.0 && all(lessThan(most - least, vec4(MOST_DIFFERENCE)));
+}
+
+void main() {
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(at, imageSize(shadow)))) return;
+  ivec2 pixel = resolutionStep == STEP_HALF ? 2 * at : at;
+  vec4 visible;
+  if (resolutionStep != STEP_FILL || !fillPixel(pixel, visible)) visible = marchPixel(pixel);
+#ifdef COUNTERS_ON
+  atomicAdd(counters[COUNTER_SHADOW_READS], readsOfThread());
+  bool isKept = resolutionStep == STEP_FILL && all(equal(pixel & 1, ivec2(0))); // marched by the step before
+  if (!isKept) imageStore(shadow_reads, pixel, uvec4(readsOfThread()));
+#endif
+  imageStore(shadow, at, visible);
+}

@@ -1,0 +1,16 @@
+// Shadows of the first lights by the estimators of others.
+#include "lib/published_shadows.glsl"
+#include "lib/shadow_frame.glsl"
+
+uniform uint estimator; // ESTIMATOR_*
+uniform int raysOfPenumbra;
+uniform float mostStep; // of half the coarsest window
+uniform uint seed;
+
+uint readsOfThread() { return shadowReads; }
+float grainAt(vec3 pointAnchored) { return texelOf(readWorldField(pointAnchored)); }
+float visibleShare(ShadowCone cone, ivec2 pixel, int light) {
+  FieldCascade coarsest = field.cascades[int(field.counts.x) - 1];
+  float step = mostStep * 0.5 * float(coarsest.window.w) * coarsest.texel.x;
+  return publishedShadow(cone, estimator, raysOfPenumbra, step, uvec3(pixel, seed + 31u * uint(light)));
+}
