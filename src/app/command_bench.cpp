@@ -1,4 +1,4 @@
-// The flags of `bench world-field` and `bench bake`.
+// The flags of `bench world-field` and `bench bake`; those of `bench shadows` are beside.
 #include "app/command_bench.h"
 
 #include <bit>
@@ -9,6 +9,7 @@
 
 #include "app/bench_bake.h"
 #include "app/bench_world_field.h"
+#include "app/command_bench_shadows.h"
 #include "app/parse.h"
 #include "core/error.h"
 
@@ -166,9 +167,10 @@ void addBake(CLI::App& bench, CommandAction& chosen) {
 void addBenchCommand(CLI::App& program, CommandAction& chosen) {
   CLI::App& command = *program.add_subcommand("bench", "Measure, on this machine");
   command.callback([&command] {
-    if (command.get_subcommands().empty()) throw BadInput("bench", "", "needs world-field or bake");
+    if (command.get_subcommands().empty()) throw BadInput("bench", "", "needs world-field, shadows or bake");
   });
   addWorldField(command, chosen);
+  addShadowBench(command, chosen);
 #ifdef BRICKFIELD_BAKERS
   addBake(command, chosen);
 #endif

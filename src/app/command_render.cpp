@@ -30,6 +30,8 @@ int render(RenderRequest& request) {
   checkCamera(request.camera);
   checkView(request.view);
   settleFieldChoice(request.field, request.view, request.scene.seed);
+  checkFieldShadowChoice(request.fieldShadows, request.shadows == ShadowChoice::Field,
+                         request.field.settings.method == FieldMethod::Exact);
   checkInputPath(request.scene.path, {".gltf", ".glb"});
   runRender(request);
   return 0;
@@ -50,6 +52,7 @@ void addOptions(CLI::App& command, RenderRequest& request) {
   })->type_name("PATH");
   addFieldOptions(command, request.field);
   addRenderShadows(command, request.shadows);
+  addFieldShadowOptions(command, request.fieldShadows);
   addName(command, "--view", "A debug view instead of the picture; see \"brickfield list views\"", request.view);
   addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", request.layers);
   addPath(command, "--stats", "Times, counts and memory as .json", request.stats);

@@ -81,6 +81,17 @@ Json settingsJson(const RenderRun& run) {
   json["sdf"] = sdf.patterns.empty() ? Json("extras") : Json(sdf.patterns);
   json["resolution"] = valueOr(sdf.resolution, "extras");
   json["shadows"] = shadowName(request.shadows);
+  if (request.shadows == ShadowChoice::Field) {
+    const ShadowSettings& shadows = request.fieldShadows.settings;
+    json["field_shadows"] = {{"estimator", estimatorName(shadows.estimator)},
+                             {"rays", shadows.penumbraRays},
+                             {"softness", shadows.softness},
+                             {"resolution", shadows.halfResolution ? "half" : "full"},
+                             {"bricks", !shadows.nearBricks ? Json("off")
+                                        : request.fieldShadows.brickVoxels == 0
+                                            ? Json("objects")
+                                            : Json(request.fieldShadows.brickVoxels)}};
+  }
   json["light"] = request.light.texts.empty() ? Json("scene") : Json(request.light.texts);
   json["environment"] = request.light.environment.empty() ? "sky" : request.light.environment.string();
   json["exposure"] = request.exposureEv;

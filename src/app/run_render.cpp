@@ -7,10 +7,12 @@
 #include "app/field_error_view.h"
 #include "app/image_io.h"
 #include "app/layers_io.h"
+#include "app/memory_limit.h"
 #include "app/progress_bar.h"
 #include "app/render_stats.h"
 #include "app/scene_fields.h"
 #include "app/session.h"
+#include "app/shadow_bricks.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "scene/gltf_import.h"
@@ -28,6 +30,8 @@ RendererSettings settingsOf(const RenderRequest& request) {
   settings.exposureEv = request.exposureEv;
   settings.view = showsFieldError(request) ? "field" : request.view;
   settings.worldField = request.field.settings;
+  settings.shadows = request.fieldShadows.settings;
+  settings.shadows.seed = static_cast<std::uint32_t>(request.scene.seed ^ request.scene.seed >> 32) + 1;
   if (request.shadows == ShadowChoice::Field) settings.shadows.method = ShadowMethod::Field;
   settings.fieldSlice = request.field.slice;
   return settings;
@@ -46,6 +50,13 @@ SceneFieldsResult bakeFields(const RenderRequest& request, const Scene& scene, c
   const std::filesystem::path cache = request.scene.cacheFolder ? *request.scene.cacheFolder : defaultCacheFolder();
   ProgressBar bar;
   SceneFieldsResult result = bakeSceneFields(scene, pose, settings, cache, bar.progress());
+  if (request.fieldShadows.brickVoxels > 0) {
+    const ShadowBrickRequest bricks{request.fieldShadows.brickVoxels,
+                                    request.scene.sdf.memoryBytes.value_or(defaultMemoryBytes()), request.scene.threads,
+                                    cache};
+    for (std::string& warning : addShadowBricks(scene, pose, bricks, result.fields, bar.progress()))
+      result.warnings.push_back(std::move(warning));
+  }
   for (const std::string& warning : result.warnings) printWarning(warning);
   return result;
 }
@@ -109,11 +120,6 @@ void runRender(const RenderRequest& request) {
   const Pose pose = poseScene(scene, request.scene.pose);
   run.view = makeView(scene, pose, request.camera);            // refuses a bad camera before the bake
   const Lighting lighting = makeLighting(pose, request.light); // and bad lights
-  for (const PosedLight& light : lighting.lights)
-    if (light.light.kind == LightKind::Rectangle)
-      throw BadInput(light.node < 0 ? "--light" : request.scene.path.string(),
-                     light.node < 0 ? light.light.name : nodeLabel(scene, light.node),
-                     "is a rectangle light, which the reference traces but render does not draw");
   sdfNodes(scene, request.scene.sdf, request.scene.threads);
   const std::unique_ptr<Context> context = Context::createHeadless(request.device);
   GLint largest = 0;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/field_choice.h"
+#include "app/field_shadow_choice.h"
 #include "app/options.h"
 #include "app/shadow_choice.h"
 
@@ -23,7 +24,8 @@ struct RenderRequest {
   int frames = 1;               ///< 1/60 s apart, the last one at the scene's time; the image is the last
   TraceChoice trace = TraceChoice::Auto;
   ShadowChoice shadows = ShadowChoice::None;
-  FieldChoice field; ///< settled
+  FieldShadowChoice fieldShadows; ///< checked
+  FieldChoice field;              ///< settled
   float exposureEv = 0;
   std::string view; ///< one of debugViews(); empty: the lit picture
   int device = -1;  ///< -1: the first that works

@@ -30,8 +30,6 @@ TEST_F(ReferenceCommand, RefusesWhatMakesNoSense) {
   for (const char* light : {"rectangle:0,1,0:0,0,0:1,1:5", "rectangle:0,1,0:0,-1,0:1:5",
                             "rectangle:0,1,0:0,-1,0:1,-1:5", "rectangle:0,1,0:0,-1,0:1,1"})
     expectRefused(command({"--light", light}), {"--light", light});
-  expectRefused({"render", "scene.gltf", "-o", "kept.png", "--light", "rectangle:0,1,0:0,-1,0:1,1:5"},
-                {"--light", "rectangle:0,1,0:0,-1,0:1,1:5", "does not draw"});
 }
 
 TEST_F(ReferenceCommand, WritesShadowsAndOcclusion) {
