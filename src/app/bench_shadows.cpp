@@ -47,7 +47,8 @@ void putFloor(Scene& scene, const Pose& pose) {
       const auto first = static_cast<std::uint32_t>(slab.positions.size());
       glm::vec3 normal(0), right(0), up(0);
       normal[axis] = side, right[(axis + 1) % 3] = side, up[(axis + 2) % 3] = 1;
-      for (const glm::vec3 corner : {normal - right - up, normal + right - up, normal + right + up, normal - right + up}) {
+      for (const glm::vec3 corner :
+           {normal - right - up, normal + right - up, normal + right + up, normal - right + up}) {
         slab.positions.push_back(corner * glm::vec3(half, 0.5f * thick, half));
         slab.normals.push_back(normal);
       }
@@ -70,16 +71,18 @@ std::vector<BenchedLight> lightsOf(const ShadowBenchRequest& request, const Pose
   travels = request.sunTravels.value_or(travels);
   std::vector<BenchedLight> lights;
   for (const double degrees : request.sunDegrees)
-    lights.push_back({fmt::format("sun {:g}", degrees),
-                      makeLighting(pose, {{fmt::format("sun:{},{},{}:{}:3.14159", travels.x, travels.y, travels.z,
-                                                       degrees)}, {}}).lights.front()});
+    lights.push_back(
+        {fmt::format("sun {:g}", degrees),
+         makeLighting(pose, {{fmt::format("sun:{},{},{}:{}:3.14159", travels.x, travels.y, travels.z, degrees)}, {}})
+             .lights.front()});
   if (request.sphereRadius <= 0) return lights;
   const Box& bounds = pose.boundsWorld;
   const glm::vec3 place = request.sphereWorld.value_or(
       glm::vec3(bounds.center().x, bounds.min.y + 0.8f * bounds.extent().y, bounds.center().z));
-  lights.push_back({fmt::format("sphere {:g}", request.sphereRadius),
-                    makeLighting(pose, {{fmt::format("sphere:{},{},{}:{}:10", place.x, place.y, place.z,
-                                                     request.sphereRadius)}, {}}).lights.front()});
+  lights.push_back(
+      {fmt::format("sphere {:g}", request.sphereRadius),
+       makeLighting(pose, {{fmt::format("sphere:{},{},{}:{}:10", place.x, place.y, place.z, request.sphereRadius)}, {}})
+           .lights.front()});
   return lights;
 }
 
@@ -256,8 +259,8 @@ private:
     if (measured.errors) {
       const ShadowErrors& e = *measured.errors;
       errors = fmt::format("{:>8.4f}{:>+9.4f}{:>9.3f} %{:>7.2f} %", e.rmse, e.mean, 100 * e.speckled, 100 * e.leaking);
-      json["errors"] = {{"rmse", e.rmse}, {"mean", e.mean}, {"speckled", e.speckled}, {"leaking", e.leaking},
-                        {"pixels", e.pixels}};
+      json["errors"] = {
+          {"rmse", e.rmse}, {"mean", e.mean}, {"speckled", e.speckled}, {"leaking", e.leaking}, {"pixels", e.pixels}};
     }
     for (const PassTime& pass : measured.passes) {
       json["passes_ms"][pass.name] = pass.milliseconds;
@@ -318,7 +321,8 @@ void runShadowBench(const ShadowBenchRequest& request) {
   checkCamera(request.camera);
   for (const fs::path& path : scenes) checkInputPath(path, {".gltf", ".glb"});
   for (const fs::path& path : scenes)
-    if (!request.plates.empty()) checkOutputPath(request.plates / (path.stem().string() + ".png"), "--plates", {".png"});
+    if (!request.plates.empty())
+      checkOutputPath(request.plates / (path.stem().string() + ".png"), "--plates", {".png"});
   for (const BenchedShadows& method : methodsOf(request)) fmt::print("{:<18}{}\n", method.name, method.meaning);
   const std::unique_ptr<Context> context = Context::createHeadless(request.device);
   fmt::print("{}, {}\n", context->info().renderer, context->info().version);

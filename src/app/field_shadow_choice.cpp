@@ -40,7 +40,8 @@ void addFieldShadowOptions(CLI::App& command, FieldShadowChoice& choice) {
   };
   using Text = const std::string&;
   add("--shadow-estimator",
-      "How --shadows field marches: rays (our own, the default), or for comparison hard, min-ratio (Quilez, the thesis), "
+      "How --shadows field marches: rays (our own, the default), or for comparison hard, min-ratio (Quilez, the "
+      "thesis), "
       "coverage, rtsdf or umbra (both Tan and others 2022)",
       "NAME", [](FieldShadowChoice& c, Text flag, Text text) { c.settings.estimator = parseEstimator(flag, text); });
   add("--shadow-rays", "Rays to a light of which a part is seen, 1 to 64, 8 by default; of rays and umbra", "N",

@@ -25,7 +25,8 @@ float longestSide(const Mesh& mesh, const glm::mat4& worldFromObject) {
 
 bool isRigid(const Mesh& mesh, const PosedInstance& instance) {
   return instance.skin < 0 && mesh.morphWeights.empty() &&
-         std::ranges::all_of(mesh.primitives, [](const Primitive& primitive) { return primitive.morphTargets.empty(); });
+         std::ranges::all_of(mesh.primitives,
+                             [](const Primitive& primitive) { return primitive.morphTargets.empty(); });
 }
 
 bool isClosed(const Mesh& mesh) {

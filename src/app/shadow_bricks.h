@@ -18,8 +18,8 @@ struct ShadowBrickRequest {
   std::filesystem::path cacheFolder; ///< empty: no cache
 };
 
-/// Adds bricks, of closed surfaces as solids and of all others as thin sheets, to `fields` for every rigid mesh that is no SDF object; skinned and morphed ones get none. Baked without
-/// attributes, through the cache.
+/// Adds bricks, of closed surfaces as solids and of all others as thin sheets, to `fields` for every rigid mesh that is
+/// no SDF object; skinned and morphed ones get none. Baked without attributes, through the cache.
 ///
 /// returns    warnings, of the cache alone
 /// error      BadInput, Cancelled

@@ -28,13 +28,13 @@ std::vector<std::uint8_t> comparableShadowPixels(const FrameLayers& frame, const
   constexpr float kSameDepth = 0.01f;
   std::vector<std::uint8_t> counts(truth.depth.size(), 0);
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (truth.kind[i] == SurfaceKind::None || frame.kind[i] == SurfaceKind::None || truth.id[i] != frame.id[i]) continue;
+    if (truth.kind[i] == SurfaceKind::None || frame.kind[i] == SurfaceKind::None || truth.id[i] != frame.id[i])
+      continue;
     if (!(std::abs(truth.depth[i] - frame.depth[i]) <= kSameDepth * truth.depth[i])) continue;
     const glm::vec2 pixel(static_cast<float>(i % truth.size.x) + 0.5f, static_cast<float>(i / truth.size.x) + 0.5f);
     const PrimaryRay ray = primaryRay(view, pixel);
     const glm::vec3 point = ray.originWorld + truth.depth[i] * ray.directionWorld;
-    const glm::vec3 toLight =
-        light.light.kind == LightKind::Sun ? -light.directionWorld : light.positionWorld - point;
+    const glm::vec3 toLight = light.light.kind == LightKind::Sun ? -light.directionWorld : light.positionWorld - point;
     counts[i] = glm::dot(truth.normalSurface[i], toLight) > 0.0f;
   }
   return counts;
@@ -54,11 +54,11 @@ ShadowErrors shadowErrors(const std::vector<float>& frame, const std::vector<flo
       squares += difference * difference;
       sum += difference;
       if (truth[i] >= kLit && holdsAround(layers.size, {x, y}, 2, [&](std::size_t j) {
-            return counts[j] && truth[j] >= kLit && glm::dot(layers.normalSurface[i], layers.normalSurface[j]) > kFlatCosine;
+            return counts[j] && truth[j] >= kLit &&
+                   glm::dot(layers.normalSurface[i], layers.normalSurface[j]) > kFlatCosine;
           }))
         ++lit, speckled += frame[i] < 0.98f;
-      if (truth[i] <= kUmbra &&
-          holdsAround(layers.size, {x, y}, 1, [&](std::size_t j) { return truth[j] <= kUmbra; }))
+      if (truth[i] <= kUmbra && holdsAround(layers.size, {x, y}, 1, [&](std::size_t j) { return truth[j] <= kUmbra; }))
         ++umbra, leaking += frame[i] > 0.1f;
     }
   const auto share = [](double part, std::size_t whole) { return whole ? part / static_cast<double>(whole) : 0.0; };

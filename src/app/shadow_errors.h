@@ -19,8 +19,8 @@ struct ShadowErrors {
   std::size_t pixels = 0;
 };
 
-/// Pixels that count: both show the same node, at the same depth to a hundredth, and the surface faces the middle of the
-/// light. A pixel each: 1 counts.
+/// Pixels that count: both show the same node, at the same depth to a hundredth, and the surface faces the middle of
+/// the light. A pixel each: 1 counts.
 std::vector<std::uint8_t> comparableShadowPixels(const FrameLayers& frame, const FrameLayers& truth, const View& view,
                                                  const PosedLight& light);
 

@@ -14,7 +14,7 @@ struct BenchedShadows {
   std::string meaning;
   FieldMethod field = FieldMethod::Off; ///< whose world field is marched; Off: none
   int fieldFrames = 1;                  ///< that are drawn before anything is measured, where the field grows
-  bool wantsBricks = false; ///< of meshes too
+  bool wantsBricks = false;             ///< of meshes too
   ShadowSettings settings;
 };
 const std::vector<BenchedShadows>& benchedShadows();

@@ -31,7 +31,8 @@ std::string hashText(const ShadowTruthRequest& request) {
   for (const PosedLight& posed : request.lighting.lights) {
     hasher.add(posed.light.kind).add(posed.light.angleRadians).add(posed.light.radius);
     hasher.add(posed.light.size.x).add(posed.light.size.y);
-    addVector(hasher, posed.positionWorld), addVector(hasher, posed.directionWorld), addVector(hasher, posed.rightWorld);
+    addVector(hasher, posed.positionWorld), addVector(hasher, posed.directionWorld),
+        addVector(hasher, posed.rightWorld);
   }
   for (const PosedInstance& instance : request.pose.instances) {
     hasher.add(instance.node).add(instance.mesh);

@@ -21,8 +21,7 @@ Scene fourBoxes() {
     scene.nodes.push_back(node);
   }
   scene.nodes[2].translation = {1, 0, 0};
-  for (Primitive& primitive : scene.meshes[2].primitives)
-    primitive.morphTargets.resize(1); // shapes that may change
+  for (Primitive& primitive : scene.meshes[2].primitives) primitive.morphTargets.resize(1); // shapes that may change
   for (Primitive& primitive : scene.meshes[2].primitives) {
     primitive.morphTargets[0].positions.resize(primitive.positions.size());
   }

@@ -69,8 +69,8 @@ TEST_F(ShadowEstimators, HardIsAStep) {
 // Steps stop beside the least value, so that it is missed by what makes the known bands: too light, never too dark by
 // more than a texel.
 TEST_F(ShadowEstimators, MinRatioIsItsClosedForm) {
-  const Difference d = compare("min-ratio", draw(ShadowEstimator::MinRatio),
-                               [](auto& s) { return std::clamp(ratio(s), 0.0, 1.0); });
+  const Difference d =
+      compare("min-ratio", draw(ShadowEstimator::MinRatio), [](auto& s) { return std::clamp(ratio(s), 0.0, 1.0); });
   EXPECT_LE(d.rmse, 0.06);
   EXPECT_GT(d.mean, -0.01);
 }
@@ -97,9 +97,8 @@ TEST_F(ShadowEstimators, CoverageIsItsClosedFormAndLeaks) {
 // Random rays to the light: right on average but for their weights, with the noise of sixteen.
 TEST_F(ShadowEstimators, UmbraIsTheTruthWithNoise) {
   const double spread = std::tan(0.5 * kDegrees * std::numbers::pi / 180);
-  const Difference d = compare("umbra", draw(ShadowEstimator::Umbra), [&](auto& s) {
-    return shareBelow(s.x / (spread * heightAt(s.z, s.x > 0)));
-  });
+  const Difference d = compare("umbra", draw(ShadowEstimator::Umbra),
+                               [&](auto& s) { return shareBelow(s.x / (spread * heightAt(s.z, s.x > 0))); });
   EXPECT_LE(d.rmse, 0.13); // one of sixteen, at most 0.125 in a penumbra
   EXPECT_LE(std::abs(d.mean), 0.05);
 }

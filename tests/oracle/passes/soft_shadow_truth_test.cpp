@@ -116,8 +116,8 @@ TEST_F(SoftShadowTruth, ErrorsStayWithinTheBars) {
   }
 }
 
-// Sixteen points stand for a panel: a metre and more away each speaks for a tenth of that, so that the sum is off by the
-// square of it, and by a hundredth at most where the picture's pixels take many samples of the truth.
+// Sixteen points stand for a panel: a metre and more away each speaks for a tenth of that, so that the sum is off by
+// the square of it, and by a hundredth at most where the picture's pixels take many samples of the truth.
 TEST_F(SoftShadowTruth, PanelsShineAsTheyAreTraced) {
   Scene built;
   built.scenes.push_back({"scene", {}});
@@ -138,7 +138,9 @@ TEST_F(SoftShadowTruth, PanelsShineAsTheyAreTraced) {
   renderer->render(view);
   const FrameLayers frame = renderer->readLayers();
   // All but the floor's edges, of whose pixels the truth sees parts.
-  const auto isTop = [&](std::size_t i) { return truth.kind[i] != SurfaceKind::None && truth.normalSurface[i].y > 0.9f; };
+  const auto isTop = [&](std::size_t i) {
+    return truth.kind[i] != SurfaceKind::None && truth.normalSurface[i].y > 0.9f;
+  };
   std::size_t compared = 0, wrong = 0;
   for (std::uint32_t y = 1; y + 1 < view.sizePixels.y; ++y)
     for (std::uint32_t x = 1; x + 1 < view.sizePixels.x; ++x) {
@@ -169,8 +171,8 @@ TEST_F(SoftShadowTruth, AMovingTeapotLeavesNoGhost) {
   const auto poseOf = [&](int frame) {
     Pose pose = scene.pose();
     const float turn = 0.3f * static_cast<float>(frame * frame);
-    pose.instances[1].worldFromObject =
-        glm::rotate(glm::translate(glm::mat4(1), {0.6f * std::cos(turn), 0.02f, 0.6f * std::sin(turn)}), turn, {0, 1, 0});
+    pose.instances[1].worldFromObject = glm::rotate(
+        glm::translate(glm::mat4(1), {0.6f * std::cos(turn), 0.02f, 0.6f * std::sin(turn)}), turn, {0, 1, 0});
     return pose;
   };
   const auto moving = scene.makeRenderer(context().info(), settings);

@@ -37,10 +37,10 @@ TEST_F(BenchShadowsCommand, RefusesWhatItCannotMeasure) {
 TEST_F(BenchShadowsCommand, MeasuresEachMethodAndLightAgainstAKeptTruth) {
   fs::create_directory("plates");
   const std::vector<std::string> command{
-      "bench",    "shadows", "scene.gltf", "--floor",   "--size",  "48x32",  "--suns",          "8",
-      "--frames", "1",       "--methods",  "field,hard", "--field-size", "S", "--shadow-bricks", "128",
-      "--samples", "16",     "--truth",    "truth",     "--cache", "cache",  "--plates",        "plates",
-      "--json",   "a.json"};
+      "bench",     "shadows", "scene.gltf", "--floor",    "--size",       "48x32", "--suns",          "8",
+      "--frames",  "1",       "--methods",  "field,hard", "--field-size", "S",     "--shadow-bricks", "128",
+      "--samples", "16",      "--truth",    "truth",      "--cache",      "cache", "--plates",        "plates",
+      "--json",    "a.json"};
   const ProgramResult first = run(command);
   ASSERT_EQ(first.exitCode, 0) << first.messages;
   const nlohmann::json figures = jsonFrom("a.json"), &methods = figures.at("scenes")[0].at("methods");
