@@ -84,6 +84,8 @@ float shadowOf(ShadowCone cone, int rays, float softness) {
   if (start < 0.0) return start == LIT ? 1.0 : 0.0;
   if (cone.spread == 0.0) rays = 1;
   float sum = 0.0, share = softness * FADE * inversesqrt(float(rays));
+  // Of a rectangle, of the disk of its area: 4 a b / pi.
+  if (cone.isRectangle) share *= sqrt(1.2732395 * length(cone.right) * length(cone.up)) / cone.spread;
   for (int i = 0; i < rays; ++i) {
     vec2 part = partOfLight(cone, i, rays);
     sum += traceRay(cone, part.x * cone.right + part.y * cone.up, share, start);
