@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <span>
 
@@ -161,16 +162,18 @@ private:
     if (!split.sheets.empty()) {
       sheets_ = split.sheets;
       const StageClock clock(stats_.stages.hierarchy);
-      surfaces_.sheets.emplace(sheetHierarchy_.emplace(soup_, split.sheets));
+      sheetHierarchy_ = std::make_unique<MeshHierarchy>(soup_, split.sheets);
+      surfaces_.sheets.emplace(*sheetHierarchy_);
       surfaces_.slabs.emplace(soup_, *sheetHierarchy_, slabRequest());
     }
     if (split.solid.empty()) return;
     timed(stats_.stages.hierarchy, [&] {
-      surfaces_.solid.emplace(split.solidHierarchy ? solidHierarchy_.emplace(std::move(*split.solidHierarchy))
-                                                   : solidHierarchy_.emplace(soup_, split.solid));
+      solidHierarchy_ =
+          split.solidHierarchy ? std::move(split.solidHierarchy) : std::make_unique<MeshHierarchy>(soup_, split.solid);
+      surfaces_.solid.emplace(*solidHierarchy_);
     });
     const StageClock clock(stats_.stages.sign);
-    inside_.emplace(soup_, topology_, *solidHierarchy_, settings_.sign, input_.label);
+    inside_.emplace(soup_, topology_, *solidHierarchy_, settings_.sign, input_.label, std::move(split.solidWinding));
     thickness_.emplace(soup_, topology_, *surfaces_.solid, *inside_);
   }
 
@@ -258,7 +261,7 @@ private:
   }
 
   BrickLevel bakeOneLevel(const GridLayout& layout, std::size_t index, bool isComplete,
-                          const AttributeBaker* attributes, std::vector<float>* signedVoxels) {
+                          const AttributeBaker* attributes, LargeVector<float>* signedVoxels) {
     BakeProgress progress(progress_,
                           fmt::format("bake {}, level {} of {}", input_.label, index + 1, layout.levels.size()));
     LevelBakeRequest request;
@@ -324,7 +327,7 @@ private:
   BakeMemory memory_;
   TriangleSoup soup_;
   MeshTopology topology_;
-  std::optional<MeshHierarchy> solidHierarchy_, sheetHierarchy_;
+  std::unique_ptr<MeshHierarchy> solidHierarchy_, sheetHierarchy_;
   BakeSurfaces surfaces_;
   std::optional<InsideTest> inside_;
   std::optional<SolidThickness> thickness_;

@@ -12,7 +12,7 @@ namespace brickfield {
 struct BandBake {
   glm::vec3 originObject{0};       ///< sample 0
   BrickLevel level;                ///< bricks within the narrow band
-  std::vector<float> signedVoxels; ///< 512 a brick, before clamping and coding
+  LargeVector<float> signedVoxels; ///< 512 a brick, before clamping and coding
   TriangleSoup soup;               ///< what was baked
   BakeStats stats;
 };

@@ -10,6 +10,15 @@ namespace brickfield {
 
 using Float4 = float __attribute__((vector_size(16)));
 
+/// A bit a lane that is set.
+inline unsigned bitsOf(decltype(Float4{} < Float4{}) mask) {
+#if defined(__SSE__)
+  return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<Float4>(mask)));
+#else
+  return static_cast<unsigned>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
+#endif
+}
+
 /// Eight lanes, one a child or a triangle.
 struct Float8 {
   std::array<Float4, 2> halves{};

@@ -81,7 +81,7 @@ std::vector<std::uint32_t> trianglesOf(const MeshHierarchy& hierarchy) {
 } // namespace
 
 InsideTest::InsideTest(const TriangleSoup& soup, const MeshTopology& topology, const MeshHierarchy& solid,
-                       SignMethod method, const std::string& label)
+                       SignMethod method, const std::string& label, std::optional<SolidWinding> ready)
     : solid_(&solid), method_(method) {
   if (method == SignMethod::Pseudonormal) {
     pseudonormals_ = Pseudonormals::of(soup);
@@ -93,7 +93,10 @@ InsideTest::InsideTest(const TriangleSoup& soup, const MeshTopology& topology, c
   } else if (method == SignMethod::Parity) {
     isConstant_ = topology.isClosed();
   } else {
-    winding_.emplace(soup, topology, trianglesOf(solid), method == SignMethod::Winding, &solid);
+    if (ready)
+      winding_ = std::move(ready);
+    else
+      winding_.emplace(soup, topology, trianglesOf(solid), method == SignMethod::Winding, &solid);
     isConstant_ = !winding_->hasOpenTriangles();
   }
 }

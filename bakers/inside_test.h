@@ -55,9 +55,10 @@ private:
 class InsideTest {
 public:
   /// method  not TwoSided, which has no inside
+  /// ready   of all triangles of `solid`, by it, for SignMethod::Auto; nothing: made here
   /// error   BadInput that names `label`: Pseudonormal on a mesh that is no closed manifold
   InsideTest(const TriangleSoup& soup, const MeshTopology& topology, const MeshHierarchy& solid, SignMethod method,
-             const std::string& label);
+             const std::string& label, std::optional<SolidWinding> ready = std::nullopt);
 
   /// point   soup space
   bool isInside(glm::dvec3 point) const { return winding_ ? winding_->isInside(point) : excess(point) >= 0; }

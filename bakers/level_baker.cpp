@@ -24,14 +24,14 @@ constexpr double kCoatSlackVoxels = 1e-3; // layers nearer than this count as on
 /// Signed distances in voxels and the triangles that they come from, in the place of the solids' (or sheets') own
 /// arrays.
 struct SignedSamples {
-  std::vector<float> distances;
-  std::vector<std::uint32_t> triangles;
+  LargeVector<float> distances;
+  LargeVector<std::uint32_t> triangles;
   std::vector<std::uint8_t> isSheet; ///< 1 where the distance is a slab's
 };
 
 /// growth  a sample, in voxels: how far solids are moved outwards; empty: nowhere
-SignedSamples combine(LevelSamples& level, const std::vector<std::uint8_t>& sampleInside,
-                      const std::vector<float>& growth) {
+SignedSamples combine(LevelSamples& level, const LargeVector<std::uint8_t>& sampleInside,
+                      const LargeVector<float>& growth) {
   const std::size_t count = std::max(level.solidDistances.size(), level.sheetDistances.size());
   if (level.solidDistances.empty())
     return {std::move(level.sheetDistances), std::move(level.sheetTriangles), std::vector<std::uint8_t>(count, 1)};
@@ -178,10 +178,10 @@ BrickLevel bakeLevel(const LevelBakeRequest& request) {
   LevelSamples samples = timed(seconds.distance, [&] { return sampleLevel(request.sampling); });
   request.stats->queries += samples.queries;
   LevelSigns signs;
-  std::vector<float> growth;
+  LargeVector<float> growth;
   if (request.inside) {
     const StageClock clock(seconds.sign);
-    signs = floodSigns(samples, *request.inside);
+    signs = floodSigns(samples, *request.sampling.surfaces->solid, *request.inside);
     insertMembranes(request.sampling, *request.inside, samples, signs);
     if (request.thickness) growth = growThinSolids(*request.thickness, request.sampling, samples, signs.sampleInside);
   }

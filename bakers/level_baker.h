@@ -15,7 +15,7 @@ struct LevelBakeRequest {
   const SolidThickness* thickness = nullptr;  ///< grows thin solids; nothing: they are as they are
   const AttributeBaker* attributes = nullptr; ///< nothing: the level gets none
   BakeStats* stats = nullptr;                 ///< seconds and queries are added to it; given always
-  std::vector<float>* signedVoxels = nullptr; ///< gets the distances before they are coded, if given
+  LargeVector<float>* signedVoxels = nullptr; ///< gets the distances before they are coded, if given
 };
 
 /// Attributes are exact within two voxels of the surface; farther samples repeat one of their brick.

@@ -275,7 +275,7 @@ void resizeBricks(const SamplingRequest& request, std::size_t count, LevelSample
 }
 
 template <typename Value>
-void keepBricks(std::vector<Value>& values, const std::vector<std::size_t>& kept) {
+void keepBricks(LargeVector<Value>& values, const std::vector<std::size_t>& kept) {
   if (values.empty()) return;
   for (std::size_t to = 0; to < kept.size(); ++to)
     if (to != kept[to]) std::copy_n(&values[kept[to] * kSamples], kSamples, &values[to * kSamples]);

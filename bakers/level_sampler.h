@@ -57,10 +57,10 @@ struct LevelSamples {
   std::vector<std::uint8_t> cellInSheet;  ///< a cell: its centre lies in a sheet's slab
   std::vector<std::uint32_t> brickOfCell; ///< kNoBrick where the surface stays away
   std::vector<std::uint32_t> cellOfBrick;
-  std::vector<float> solidDistances;         ///< unsigned; where beyond the range, some lower bound beyond it
-  std::vector<std::uint32_t> solidTriangles; ///< closest, or one not far from that where beyond the range
-  std::vector<float> sheetDistances;         ///< negative inside the slab
-  std::vector<std::uint32_t> sheetTriangles;
+  LargeVector<float> solidDistances;         ///< unsigned; where beyond the range, some lower bound beyond it
+  LargeVector<std::uint32_t> solidTriangles; ///< closest, or one not far from that where beyond the range
+  LargeVector<float> sheetDistances;         ///< negative inside the slab
+  LargeVector<std::uint32_t> sheetTriangles;
 
   std::uint64_t queries = 0; ///< points whose distance was asked for
 

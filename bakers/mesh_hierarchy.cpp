@@ -6,12 +6,13 @@
 #include "bakers/mesh_hierarchy.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 namespace brickfield {
 
@@ -75,7 +76,7 @@ Item itemOf(const TriangleSoup& soup, std::uint32_t triangle) {
 /// Sorts items into a tree whose leaves take up to leafSize of them: triangles by eight, clusters one by one.
 class RangeBuilder {
 public:
-  RangeBuilder(std::vector<Item>& items, std::size_t leafSize)
+  RangeBuilder(LargeVector<Item>& items, std::size_t leafSize)
       : items_(items), leafSize_(leafSize), nodeSize_(leafSize * kHierarchyWidth) {}
 
   /// width  most children of the root
@@ -207,100 +208,153 @@ private:
   }
   float leavesOf(std::size_t count) const { return static_cast<float>((count + leafSize_ - 1) / leafSize_); }
 
-  std::vector<Item>& items_;
+  LargeVector<Item>& items_;
   std::size_t leafSize_, nodeSize_;
 };
 
-/// Place of a point of the unit cube's 1024^3 cells on Hilbert's curve (Skilling, Programming the Hilbert Curve, 2004).
+/// Steps of Hilbert's curve through the eight cells of a cube (Hamilton, Compact Hilbert Indices, 2006): by where the
+/// curve enters it and along which axis it leaves, and by the cell, the place on the curve and how it goes through that
+/// cell.
+class HilbertSteps {
+public:
+  struct Step {
+    std::uint8_t place = 0, next = 0;
+  };
+  constexpr HilbertSteps() {
+    for (unsigned state = 0; state < kStates; ++state)
+      for (unsigned cell = 0; cell < 8; ++cell) steps_[state][cell] = stepOf(state / 3, state % 3, cell);
+  }
+  constexpr Step at(unsigned state, unsigned cell) const { return steps_[state][cell]; }
+
+private:
+  static constexpr unsigned kStates = 24;
+
+  static constexpr unsigned turned(unsigned bits, unsigned by) { return (bits << by | bits >> (3 - by)) & 7u; }
+  static constexpr unsigned gray(unsigned i) { return i ^ i >> 1; }
+  static constexpr Step stepOf(unsigned entry, unsigned axis, unsigned cell) {
+    const unsigned by = (axis + 1) % 3, seen = turned(cell ^ entry, (3 - by) % 3);
+    const unsigned place = seen ^ seen >> 1 ^ seen >> 2; // undoes gray
+    const unsigned entryOfCell = place == 0 ? 0 : gray(2 * ((place - 1) / 2));
+    const unsigned trailing = place == 0 ? 0 : static_cast<unsigned>(std::countr_one(place - (place + 1) % 2));
+    const unsigned next = 3 * (entry ^ turned(entryOfCell, by)) + (axis + trailing + 1) % 3;
+    return {static_cast<std::uint8_t>(place), static_cast<std::uint8_t>(next)};
+  }
+
+  std::array<std::array<Step, 8>, kStates> steps_;
+};
+constexpr HilbertSteps kHilbertSteps;
+
+/// Place of one of the unit cube's 1024^3 cells on the curve.
 std::uint32_t hilbertCode(std::array<std::uint32_t, 3> cell) {
-  for (std::uint32_t bit = 1u << (kHilbertBits - 1); bit > 1; bit >>= 1)
-    for (std::uint32_t& axis : cell) {
-      const std::uint32_t below = bit - 1;
-      if (axis & bit) {
-        cell[0] ^= below;
-      } else {
-        const std::uint32_t swapped = (cell[0] ^ axis) & below;
-        cell[0] ^= swapped, axis ^= swapped;
-      }
-    }
-  cell[1] ^= cell[0], cell[2] ^= cell[1];
-  std::uint32_t gray = 0;
-  for (std::uint32_t bit = 1u << (kHilbertBits - 1); bit > 1; bit >>= 1)
-    if (cell[2] & bit) gray ^= bit - 1;
   std::uint32_t code = 0;
-  for (std::uint32_t bit = kHilbertBits; bit-- > 0;)
-    for (const std::uint32_t axis : cell) code = code << 1 | ((axis ^ gray) >> bit & 1);
+  unsigned state = 0;
+  for (std::uint32_t bit = kHilbertBits; bit-- > 0;) {
+    const unsigned child = (cell[0] >> bit & 1u) | (cell[1] >> bit & 1u) << 1 | (cell[2] >> bit & 1u) << 2;
+    const HilbertSteps::Step step = kHilbertSteps.at(state, child);
+    code = code << 3 | step.place;
+    state = step.next;
+  }
   return code;
 }
 
-/// Along Hilbert's curve through the centres; of equal places the lower triangle first.
-void sortAlongCurve(std::vector<Item>& items) {
-  ItemBox centers;
-  for (const Item& item : items) centers.extend(item.min + item.max, item.min + item.max);
-  const Float4 side = centers.max - centers.min;
-  const float scale = 0.9999f * static_cast<float>(1u << kHilbertBits) / std::max({side[0], side[1], side[2], 1e-30f});
-  std::vector<std::uint64_t> keys(items.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, items.size(), kParallelRange), [&](const auto& block) {
-    for (std::size_t i = block.begin(); i < block.end(); ++i) {
-      const Float4 place = (items[i].min + items[i].max - centers.min) * broadcast(scale);
-      const std::array<std::uint32_t, 3> cell = {static_cast<std::uint32_t>(place[0]),
-                                                 static_cast<std::uint32_t>(place[1]),
-                                                 static_cast<std::uint32_t>(place[2])};
-      keys[i] = std::uint64_t{hilbertCode(cell)} << 32 | i;
-    }
-  });
-  tbb::parallel_sort(keys.begin(), keys.end());
-  std::vector<Item> sorted(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) sorted[i] = items[keys[i] & 0xffffffffu];
-  items = std::move(sorted);
+/// By the upper half of each; those that agree in it stay in their order.
+void sortByCode(LargeVector<std::uint64_t>& keys) {
+  constexpr std::uint32_t kDigitBits = 10, kDigits = 3 * kHilbertBits / kDigitBits;
+  LargeVector<std::uint64_t> sorted(keys.size());
+  for (std::uint32_t digit = 0; digit < kDigits; ++digit) {
+    const auto digitOf = [shift = 32 + kDigitBits * digit](std::uint64_t key) {
+      return static_cast<std::size_t>(key >> shift & ((1u << kDigitBits) - 1));
+    };
+    std::array<std::size_t, (1u << kDigitBits) + 1> first{};
+    for (const std::uint64_t key : keys) ++first[digitOf(key) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    for (const std::uint64_t key : keys) sorted[first[digitOf(key)]++] = key;
+    keys.swap(sorted);
+  }
 }
 
-/// For many triangles: clusters of 64 along the curve are sorted into a tree, then each into its leaves.
+/// For many triangles: those of clusters of 64 along Hilbert's curve through the centres (of equal places the lower
+/// triangle first); the clusters are sorted into a tree, then each into its leaves.
 class ClusterBuilder {
 public:
-  explicit ClusterBuilder(std::vector<Item>& items) : items_(items) {
-    sortAlongCurve(items);
-    clusters_.resize(items.size() / kWholeNode);
-    for (std::size_t c = 0; c < clusters_.size(); ++c) {
-      const Range range = RangeBuilder(items_, kHierarchyWidth).rangeOf(kWholeNode * c, kWholeNode * (c + 1));
-      clusters_[c] = {range.box.min, range.box.max, static_cast<std::uint32_t>(c)};
-    }
+  ClusterBuilder(const TriangleSoup& soup, const std::vector<std::uint32_t>& triangles)
+      : soup_(soup), triangles_(triangles), clusters_(triangles.size() / kWholeNode) {
+    sortAlongCurve();
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, clusters_.size(), kParallelRange / kWholeNode),
+                      [&](const auto& block) {
+                        for (std::size_t c = block.begin(); c < block.end(); ++c) clusters_[c] = clusterOf(c);
+                      });
   }
 
-  std::unique_ptr<BuiltNode> build() {
-    const std::size_t tail = items_.size() - kWholeNode * clusters_.size();
-    auto root = RangeBuilder(clusters_, 1).build(tail > 0 ? kHierarchyWidth - 1 : kHierarchyWidth);
-    std::vector<Item> ordered;
-    ordered.reserve(items_.size());
-    const auto append = [&](std::size_t begin, std::size_t count) {
-      const auto from = items_.begin() + static_cast<std::ptrdiff_t>(begin);
-      ordered.insert(ordered.end(), from, from + static_cast<std::ptrdiff_t>(count));
-    };
-    for (const Item& cluster : clusters_) append(kWholeNode * cluster.triangle, kWholeNode);
-    append(items_.size() - tail, tail);
-    items_ = std::move(ordered);
-    expand(*root);
-    if (tail > 0) addChild(*root, root->childCount++, items_.size() - tail, items_.size());
+  /// items  get the triangles in the order of the tree
+  std::unique_ptr<BuiltNode> build(LargeVector<Item>& items) {
+    const std::size_t whole = kWholeNode * clusters_.size(), count = triangles_.size();
+    auto root = RangeBuilder(clusters_, 1).build(count > whole ? kHierarchyWidth - 1 : kHierarchyWidth);
+    items.resize(count);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, clusters_.size(), kParallelRange / kWholeNode),
+                      [&](const auto& block) {
+                        for (std::size_t i = kWholeNode * block.begin(); i < kWholeNode * block.end(); ++i)
+                          items[i] = itemAt(kWholeNode * clusters_[i / kWholeNode].triangle + i % kWholeNode);
+                      });
+    for (std::size_t i = whole; i < count; ++i) items[i] = itemAt(i);
+    expand(*root, items);
+    if (count > whole) addChild(*root, root->childCount++, whole, items);
     return root;
   }
 
 private:
-  void addChild(BuiltNode& node, std::size_t i, std::size_t begin, std::size_t end) {
-    RangeBuilder builder(items_, kHierarchyWidth);
-    node.ranges[i] = builder.rangeOf(begin, end);
-    if (end - begin > kHierarchyWidth) node.nodes[i] = builder.nodeOf(node.ranges[i]);
+  void sortAlongCurve() {
+    ItemBox centers;
+    for (const std::uint32_t triangle : triangles_) {
+      const Float4 center = centerOf(triangle);
+      centers.extend(center, center);
+    }
+    const Float4 side = centers.max - centers.min;
+    const float scale =
+        0.9999f * static_cast<float>(1u << kHilbertBits) / std::max({side[0], side[1], side[2], 1e-30f});
+    keys_.resize(triangles_.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, keys_.size(), kParallelRange), [&](const auto& block) {
+      for (std::size_t i = block.begin(); i < block.end(); ++i) {
+        const Float4 place = (centerOf(triangles_[i]) - centers.min) * broadcast(scale);
+        const std::array<std::uint32_t, 3> cell = {static_cast<std::uint32_t>(place[0]),
+                                                   static_cast<std::uint32_t>(place[1]),
+                                                   static_cast<std::uint32_t>(place[2])};
+        keys_[i] = std::uint64_t{hilbertCode(cell)} << 32 | i;
+      }
+    });
+    sortByCode(keys_);
   }
-  void expand(BuiltNode& node) {
+  Float4 centerOf(std::uint32_t triangle) const {
+    const Item item = itemOf(soup_, triangle);
+    return item.min + item.max;
+  }
+  Item itemAt(std::size_t place) const { return itemOf(soup_, triangles_[keys_[place] & 0xffffffffu]); }
+  Item clusterOf(std::size_t number) const {
+    ItemBox box;
+    for (std::size_t i = kWholeNode * number; i < kWholeNode * (number + 1); ++i) {
+      const Item item = itemAt(i);
+      box.extend(item.min, item.max);
+    }
+    return {box.min, box.max, static_cast<std::uint32_t>(number)};
+  }
+  static void addChild(BuiltNode& node, std::size_t i, std::size_t begin, LargeVector<Item>& items) {
+    RangeBuilder builder(items, kHierarchyWidth);
+    node.ranges[i] = builder.rangeOf(begin, std::min(begin + kWholeNode, items.size()));
+    if (node.ranges[i].count() > kHierarchyWidth) node.nodes[i] = builder.nodeOf(node.ranges[i]);
+  }
+  static void expand(BuiltNode& node, LargeVector<Item>& items) {
     tbb::parallel_for(std::size_t{0}, node.childCount, [&](std::size_t i) {
       if (node.nodes[i])
-        expand(*node.nodes[i]);
+        expand(*node.nodes[i], items);
       else
-        addChild(node, i, kWholeNode * node.ranges[i].begin, kWholeNode * node.ranges[i].end);
+        addChild(node, i, kWholeNode * node.ranges[i].begin, items);
     });
   }
 
-  std::vector<Item>& items_;
-  std::vector<Item> clusters_; ///< their number for a triangle's
+  const TriangleSoup& soup_;
+  const std::vector<std::uint32_t>& triangles_;
+  LargeVector<std::uint64_t> keys_; ///< along the curve: code, then place in triangles_
+  LargeVector<Item> clusters_;      ///< their number for a triangle's
 };
 
 void setTriangle(HierarchyLeaf& leaf, std::size_t lane, const std::array<glm::dvec3, 3>& corners) {
@@ -319,7 +373,7 @@ void setTriangle(HierarchyLeaf& leaf, std::size_t lane, const std::array<glm::dv
   leaf.lengthBc.setLane(lane, static_cast<float>(lengthBc));
 }
 
-HierarchyLeaf leafOf(const TriangleSoup& soup, const std::vector<Item>& items, std::size_t begin) {
+HierarchyLeaf leafOf(const TriangleSoup& soup, const LargeVector<Item>& items, std::size_t begin) {
   HierarchyLeaf leaf;
   const std::size_t count = std::min(kHierarchyWidth, items.size() - begin);
   for (std::size_t i = 0; i < kHierarchyWidth; ++i) leaf.triangles[i] = items[begin + std::min(i, count - 1)].triangle;
@@ -331,7 +385,7 @@ HierarchyLeaf leafOf(const TriangleSoup& soup, const std::vector<Item>& items, s
 }
 
 /// Copies the built tree depth first, so that what is walked together lies together.
-HierarchyChild flatten(const BuiltNode& built, std::vector<HierarchyNode>& nodes) {
+HierarchyChild flatten(const BuiltNode& built, LargeVector<HierarchyNode>& nodes) {
   const std::size_t index = nodes.size();
   nodes.emplace_back();
   for (std::size_t i = 0; i < kHierarchyWidth; ++i) {
@@ -352,12 +406,17 @@ HierarchyChild flatten(const BuiltNode& built, std::vector<HierarchyNode>& nodes
 
 MeshHierarchy::MeshHierarchy(const TriangleSoup& soup, const std::vector<std::uint32_t>& triangles)
     : soup_(&soup), triangleCount_(triangles.size()) {
-  std::vector<Item> items(triangles.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, items.size(), kParallelRange), [&](const auto& block) {
-    for (std::size_t i = block.begin(); i < block.end(); ++i) items[i] = itemOf(soup, triangles[i]);
-  });
-  const std::unique_ptr<BuiltNode> built =
-      items.size() < kManyTriangles ? RangeBuilder(items, kHierarchyWidth).build() : ClusterBuilder(items).build();
+  LargeVector<Item> items;
+  std::unique_ptr<BuiltNode> built;
+  if (triangles.size() < kManyTriangles) {
+    items.resize(triangles.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, items.size(), kParallelRange), [&](const auto& block) {
+      for (std::size_t i = block.begin(); i < block.end(); ++i) items[i] = itemOf(soup, triangles[i]);
+    });
+    built = RangeBuilder(items, kHierarchyWidth).build();
+  } else {
+    built = ClusterBuilder(soup, triangles).build(items);
+  }
   leaves_.resize((triangles.size() + kHierarchyWidth - 1) / kHierarchyWidth);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves_.size(), kParallelRange / kHierarchyWidth),
                     [&](const auto& block) {

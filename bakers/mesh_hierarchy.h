@@ -63,16 +63,16 @@ public:
 
   const TriangleSoup& soup() const { return *soup_; }
   HierarchyChild root() const { return {0}; }
-  const std::vector<HierarchyNode>& nodes() const { return nodes_; } ///< parents before children
-  const std::vector<HierarchyLeaf>& leaves() const { return leaves_; }
+  const LargeVector<HierarchyNode>& nodes() const { return nodes_; } ///< parents before children
+  const LargeVector<HierarchyLeaf>& leaves() const { return leaves_; }
   std::size_t triangleCount() const { return triangleCount_; }
   std::size_t bytes() const { return nodes_.size() * sizeof(HierarchyNode) + leaves_.size() * sizeof(HierarchyLeaf); }
 
 private:
   const TriangleSoup* soup_;
   std::size_t triangleCount_;
-  std::vector<HierarchyNode> nodes_;
-  std::vector<HierarchyLeaf> leaves_;
+  LargeVector<HierarchyNode> nodes_;
+  LargeVector<HierarchyLeaf> leaves_;
 };
 
 } // namespace brickfield

@@ -25,10 +25,10 @@ struct DirectedEdge {
 
 /// By smaller, then larger vertex, then triangle, then corner: counted into a bucket for each smaller vertex, in the
 /// order of the triangles, and then each bucket, of some six edges, sorted by the larger one.
-std::vector<DirectedEdge> sortedEdges(const TriangleSoup& soup) {
-  std::vector<std::uint32_t> firstOf(soup.positions.size() + 1, 0);
+LargeVector<DirectedEdge> sortedEdges(const TriangleSoup& soup) {
+  LargeVector<std::uint32_t> firstOf(soup.positions.size() + 1, 0);
   const auto forEach = [&](const auto& visit) {
-    const auto visitAll = [&](const std::vector<TriangleVertices>& triangles, std::size_t firstNumber) {
+    const auto visitAll = [&](const auto& triangles, std::size_t firstNumber) {
       for (std::size_t t = 0; t < triangles.size(); ++t)
         for (std::uint8_t k = 0; k < 3; ++k) {
           const std::uint32_t from = triangles[t][k], to = triangles[t][(k + 1u) % 3u];
@@ -41,8 +41,8 @@ std::vector<DirectedEdge> sortedEdges(const TriangleSoup& soup) {
   };
   forEach([&](const DirectedEdge& edge) { ++firstOf[edge.small + 1]; });
   for (std::size_t v = 1; v < firstOf.size(); ++v) firstOf[v] += firstOf[v - 1];
-  std::vector<DirectedEdge> edges(firstOf.back());
-  std::vector<std::uint32_t> place(firstOf.begin(), firstOf.end() - 1);
+  LargeVector<DirectedEdge> edges(firstOf.back());
+  LargeVector<std::uint32_t> place(firstOf.begin(), firstOf.end() - 1);
   forEach([&](const DirectedEdge& edge) { edges[place[edge.small]++] = edge; });
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, place.size(), kVerticesAtATime), [&](const auto& block) {
     for (std::size_t v = block.begin(); v < block.end(); ++v)
@@ -57,7 +57,7 @@ std::vector<DirectedEdge> sortedEdges(const TriangleSoup& soup) {
 
 /// Calls `visit` with the run of entries of each edge.
 template <typename Visit>
-void forEachEdge(const std::vector<DirectedEdge>& edges, Visit visit) {
+void forEachEdge(const LargeVector<DirectedEdge>& edges, Visit visit) {
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     while (end < edges.size() && edges[end].small == edges[begin].small && edges[end].large == edges[begin].large)
       ++end;
@@ -125,7 +125,7 @@ void findFlatPairs(const TriangleSoup& soup, std::vector<std::uint32_t> twins, M
 MeshTopology analyseTopology(const TriangleSoup& soup) {
   MeshTopology topology;
   const std::size_t count = soup.triangles.size();
-  const std::vector<DirectedEdge> edges = sortedEdges(soup);
+  const LargeVector<DirectedEdge> edges = sortedEdges(soup);
   DisjointSets components(count + soup.slivers.size());
   std::vector<std::uint32_t> unbalanced, twisted, twins;
   forEachEdge(edges, [&](std::span<const DirectedEdge> uses) {

@@ -2,43 +2,123 @@
 #include "bakers/patch_graph.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include <tbb/parallel_for.h>
-
-#include "bakers/sample_links.h"
 
 namespace brickfield {
 
 namespace {
 
 constexpr std::size_t kSamples = kBrickSampleCount;
-BrickPatches patchesOf(const float* distances) {
-  const SampleLinks links(distances);
-  BrickPatches patches;
-  SampleRows left = allSamples();
-  for (std::size_t i = 0; i < kSamples; ++i) {
-    if (!(left[i / kBrickSamples] >> i % kBrickSamples & 1)) continue;
-    const auto number = static_cast<std::uint16_t>(patches.deepest.size());
-    std::size_t deepest = i; // of several as deep the first
-    links.flood(i, left, [&](std::size_t sample) {
-      patches.patchOfSample[sample] = number;
-      if (distances[sample] > distances[deepest] || (distances[sample] == distances[deepest] && sample < deepest))
-        deepest = sample;
-    });
-    patches.deepest.push_back(static_cast<std::uint16_t>(deepest));
+constexpr float kAloneVoxels = 0.3f;      // patches that come farther off the surface have neighbours, or are pockets
+constexpr double kOffVoxels = 0.25;       // from a sample to the place that is looked at
+constexpr double kMostLookVoxels = 0.5;   // a larger ball is seldom empty
+constexpr double kLookSlackVoxels = 1e-3; // over the rounding of distances in voxels to float
+
+/// Joins the patches of a brick that a look at one place each tells to be parts of others.
+class PatchJoiner {
+public:
+  PatchJoiner(const LevelSamples& level, const MeshDistance& solid, std::size_t b, std::vector<SampleMask>& patches)
+      : level_(level),
+        solid_(solid),
+        brick_(level.grid.brickOfCell(level.cellOfBrick[b])),
+        distances_(&level.solidDistances[b * kSamples]),
+        triangles_(&level.solidTriangles[b * kSamples]),
+        patches_(patches) {}
+
+  void run() {
+    if (patches_.size() < 2) return;
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      if (reachesOff(patches_[i])) continue;
+      const std::size_t sample = deepestOf(patches_[i], distances_);
+      const std::size_t neighbour = findNeighbour(sample, patches_[i]);
+      if (neighbour == kSamples) continue;
+      const auto holder = std::find_if(patches_.begin(), patches_.end(),
+                                       [&](const SampleMask& patch) { return isIn(patch, neighbour); });
+      for (std::size_t z = 0; z < holder->size(); ++z) (*holder)[z] |= patches_[i][z];
+      patches_[i].fill(0);
+    }
+    const auto isEmpty = [](const SampleMask& patch) { return patch == SampleMask{}; };
+    patches_.erase(std::remove_if(patches_.begin(), patches_.end(), isEmpty), patches_.end());
   }
+
+private:
+  bool reachesOff(const SampleMask& patch) const {
+    for (std::size_t z = 0; z < patch.size(); ++z)
+      for (std::uint64_t rest = patch[z]; rest != 0; rest &= rest - 1)
+        if (distances_[64 * z + static_cast<std::size_t>(std::countr_zero(rest))] > kAloneVoxels) return true;
+    return false;
+  }
+  /// A sample of another patch without a triangle between; kSamples: none is known.
+  std::size_t findNeighbour(std::size_t sample, const SampleMask& own) const {
+    const glm::dvec3 point = level_.grid.sample(brick_, sampleOfIndex(sample));
+    const glm::dvec3 on = closestPointOnTriangle(point, solid_.hierarchy().soup().corners(triangles_[sample])).point;
+    const double away = glm::length(point - on);
+    if (!(away > 0)) return kSamples;
+    const glm::dvec3 toPlace = kOffVoxels / away * (point - on); // voxels
+    const auto [neighbour, gap] = nearestBall(sample, toPlace, own);
+    const double radius = std::max({kOffVoxels - static_cast<double>(distances_[sample]), gap, 0.0}) + kLookSlackVoxels;
+    if (neighbour == kSamples || radius > kMostLookVoxels) return kSamples;
+    const double voxel = level_.grid.voxelSize;
+    const bool isClear = solid_.nearest(point + voxel * toPlace, radius * voxel).triangle == kNoTriangle;
+    return isClear ? neighbour : kSamples;
+  }
+
+  struct Ball {
+    std::size_t sample = kSamples;
+    double gap = std::numeric_limits<double>::infinity(); ///< voxels from a place to it; negative inside
+  };
+  /// Of the balls around a sample's neighbours in other patches the one that comes nearest to a place.
+  Ball nearestBall(std::size_t sample, glm::dvec3 toPlace, const SampleMask& own) const {
+    const glm::ivec3 from = sampleOfIndex(sample);
+    const glm::ivec3 low = glm::max(from - 1, 0), high = glm::min(from + 1, kBrickSamples - 1);
+    Ball nearest;
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+          const std::size_t i = sampleIndex({x, y, z});
+          if (isIn(own, i) || !(distances_[i] > 0)) continue;
+          const double gap =
+              glm::length(toPlace - glm::dvec3(glm::ivec3(x, y, z) - from)) - static_cast<double>(distances_[i]);
+          if (gap < nearest.gap) nearest = {i, gap};
+        }
+    return nearest;
+  }
+
+  const LevelSamples& level_;
+  const MeshDistance& solid_;
+  glm::ivec3 brick_;
+  const float* distances_;
+  const std::uint32_t* triangles_;
+  std::vector<SampleMask>& patches_;
+};
+
+std::vector<SampleMask> patchesOf(const float* distances) {
+  const SampleLinks links(distances);
+  std::vector<SampleMask> patches;
+  SampleMask left = samplesOffSurface(distances);
+  for (std::size_t z = 0; z < left.size(); ++z)
+    while (left[z] != 0)
+      patches.push_back(links.flood(64 * z + static_cast<std::size_t>(std::countr_zero(left[z])), left));
   return patches;
 }
 
 } // namespace
 
-PatchGraph::PatchGraph(const LevelSamples& level)
-    : level_(&level), bricks_(level.brickCount()), first_(level.brickCount() + 1) {
-  tbb::parallel_for(std::size_t{0}, bricks_.size(),
-                    [&](std::size_t b) { bricks_[b] = patchesOf(&level.solidDistances[b * kSamples]); });
+PatchGraph::PatchGraph(const LevelSamples& level, const MeshDistance& solid)
+    : level_(&level), first_(level.brickCount() + 1) {
+  std::vector<std::vector<SampleMask>> bricks(level.brickCount());
+  tbb::parallel_for(std::size_t{0}, bricks.size(), [&](std::size_t b) {
+    bricks[b] = patchesOf(&level.solidDistances[b * kSamples]);
+    PatchJoiner(level, solid, b, bricks[b]).run();
+  });
   first_[0] = static_cast<std::uint32_t>(level.grid.cellCount());
-  for (std::size_t b = 0; b < bricks_.size(); ++b)
-    first_[b + 1] = first_[b] + static_cast<std::uint32_t>(bricks_[b].deepest.size());
+  for (std::size_t b = 0; b < bricks.size(); ++b)
+    first_[b + 1] = first_[b] + static_cast<std::uint32_t>(bricks[b].size());
+  masks_.reserve(first_.back() - first_.front());
+  for (const std::vector<SampleMask>& patches : bricks) masks_.insert(masks_.end(), patches.begin(), patches.end());
 }
 
 std::size_t PatchGraph::brickOf(std::uint32_t patch) const {
@@ -49,7 +129,22 @@ glm::dvec3 PatchGraph::pointOf(std::uint32_t patch) const {
   const SampleGrid& grid = level_->grid;
   if (isCell(patch)) return grid.brickCenter(grid.brickOfCell(patch));
   const std::size_t b = brickOf(patch);
-  return grid.sample(grid.brickOfCell(level_->cellOfBrick[b]), sampleOfIndex(bricks_[b].deepest[patch - first_[b]]));
+  const std::size_t deepest = deepestOf(samplesOf(patch), &level_->solidDistances[b * kSamples]);
+  return grid.sample(grid.brickOfCell(level_->cellOfBrick[b]), sampleOfIndex(deepest));
+}
+
+std::uint64_t PatchGraph::inFace(const SampleMask& mask, glm::length_t axis, bool isLast) {
+  constexpr std::uint64_t kFirstColumn = 0x0101010101010101u;
+  if (axis == 2) return mask[isLast ? kBrickSamples - 1 : 0];
+  const int by = isLast ? kBrickSamples - 1 : 0;
+  std::uint64_t face = 0;
+  for (std::size_t z = 0; z < mask.size(); ++z) {
+    // The product puts bit 8 i, of column x in row i, at place 56 + i.
+    const std::uint64_t row = axis == 1 ? mask[z] >> (kBrickSamples * by) & 0xffu
+                                        : (mask[z] >> by & kFirstColumn) * 0x0102040810204080u >> 56;
+    face |= row << (8 * z);
+  }
+  return face;
 }
 
 } // namespace brickfield

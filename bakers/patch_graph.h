@@ -2,37 +2,39 @@
 // how they meet across bricks and empty cells.
 //
 // Two samples p and q with d(p) + d(q) > |p - q| have no triangle between them: the balls around them hold the segment.
-// So a brick falls into patches (flooded over 26 neighbours: along the diagonal nearest to its normal a surface is left
-// fastest, so hardly a sample stays alone). Patches of neighbouring bricks meet in the samples that both store, and an
+// So a brick falls into patches (flooded over 26 neighbours). Samples very close to a surface that lies askew stay
+// alone that way; a look at a place between finds most of them a neighbour:
+//
+//   p .        p  sample, its ball too small to reach q's
+//    ( m ) q   m  a little off the surface from p: where no triangle comes into a ball around it that meets both, p and
+//   ---------     q have none between them
+//
+// Samples on the surface are in no patch. Patches of neighbouring bricks meet in the samples that both store, and an
 // empty cell is one patch that joins all of its neighbours.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "bakers/disjoint_sets.h"
 #include "bakers/level_sampler.h"
+#include "bakers/sample_links.h"
 
 namespace brickfield {
-
-/// Patches of one brick.
-struct BrickPatches {
-  std::array<std::uint16_t, kBrickSampleCount> patchOfSample; ///< numbered from 0 by first sample
-  std::vector<std::uint16_t> deepest;                         ///< a patch: its sample farthest from the surface
-};
 
 /// All patches of a level in one numbering: first one a cell (in use by the empty ones), then those of the bricks.
 class PatchGraph {
 public:
   /// level  with solid distances; must outlive this
-  explicit PatchGraph(const LevelSamples& level);
+  /// solid  what they were measured to
+  PatchGraph(const LevelSamples& level, const MeshDistance& solid);
 
-  const BrickPatches& brick(std::size_t b) const { return bricks_[b]; }
   std::uint32_t patchCount() const { return first_.back(); }
-  std::uint32_t patchOf(std::size_t brick, std::size_t sample) const {
-    return first_[brick] + bricks_[brick].patchOfSample[sample];
-  }
+  /// Of a brick: numbers from .. to - 1.
+  std::uint32_t firstPatchOf(std::size_t brick) const { return first_[brick]; }
+  std::uint32_t endPatchOf(std::size_t brick) const { return first_[brick + 1]; }
+  /// Samples of a brick's patch.
+  const SampleMask& samplesOf(std::uint32_t patch) const { return masks_[patch - first_.front()]; }
   bool isCell(std::uint32_t patch) const { return patch < first_.front(); }
   /// Whether a patch number is in use: a brick's cell has none of its own.
   bool exists(std::uint32_t patch) const { return !isCell(patch) || level_->brickOfCell[patch] == kNoBrick; }
@@ -43,19 +45,21 @@ public:
   /// The point of a patch that is farthest from the surface, or a cell's centre.
   glm::dvec3 pointOf(std::uint32_t patch) const;
 
-  /// Calls visit(patch, patch) for what meets across the faces between cells, once a shared sample. What meets in edges
-  /// and corners follows: of the cells around an edge each shares a face with the next.
+  /// Calls visit(patch, patch) once for each two that meet across a face between cells. What meets in edges and corners
+  /// follows: of the cells around an edge each shares a face with the next.
   template <typename Visit>
   void forEachMeeting(Visit visit) const;
 
 private:
   std::size_t brickOf(std::uint32_t patch) const;
+  /// Samples of a patch in a face of its brick: the first or the last along an axis.
+  static std::uint64_t inFace(const SampleMask& mask, glm::length_t axis, bool isLast);
   template <typename Visit>
   void meetAcrossFace(std::size_t cell, std::size_t nextCell, glm::length_t axis, Visit visit) const;
 
   const LevelSamples* level_;
-  std::vector<BrickPatches> bricks_;
   std::vector<std::uint32_t> first_; ///< a brick: number of its first patch
+  std::vector<SampleMask> masks_;    ///< a brick's patch, from first_.front() on
 };
 
 template <typename Visit>
@@ -71,22 +75,16 @@ void PatchGraph::forEachMeeting(Visit visit) const {
 template <typename Visit>
 void PatchGraph::meetAcrossFace(std::size_t cell, std::size_t nextCell, glm::length_t axis, Visit visit) const {
   const std::uint32_t brick = level_->brickOfCell[cell], nextBrick = level_->brickOfCell[nextCell];
-  if (brick == kNoBrick && nextBrick == kNoBrick) {
-    visit(static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(nextCell));
-    return;
-  }
-  glm::ivec3 sample;
-  for (int j = 0; j < kBrickSamples; ++j)
-    for (int i = 0; i < kBrickSamples; ++i) {
-      sample[(axis + 1) % 3] = i, sample[(axis + 2) % 3] = j;
-      sample[axis] = kBrickCells;
-      const std::uint32_t here =
-          brick == kNoBrick ? static_cast<std::uint32_t>(cell) : patchOf(brick, sampleIndex(sample));
-      sample[axis] = 0;
-      const std::uint32_t there =
-          nextBrick == kNoBrick ? static_cast<std::uint32_t>(nextCell) : patchOf(nextBrick, sampleIndex(sample));
-      visit(here, there);
-    }
+  const auto forEachSide = [&](std::uint32_t b, std::size_t emptyCell, bool isLast, const auto& visitSide) {
+    if (b == kNoBrick) return visitSide(static_cast<std::uint32_t>(emptyCell), ~std::uint64_t{0});
+    for (std::uint32_t patch = first_[b]; patch < first_[b + 1]; ++patch)
+      if (const std::uint64_t samples = inFace(samplesOf(patch), axis, isLast); samples != 0) visitSide(patch, samples);
+  };
+  forEachSide(brick, cell, true, [&](std::uint32_t here, std::uint64_t ofHere) {
+    forEachSide(nextBrick, nextCell, false, [&](std::uint32_t there, std::uint64_t ofThere) {
+      if (ofHere & ofThere) visit(here, there);
+    });
+  });
 }
 
 } // namespace brickfield

@@ -6,29 +6,48 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <utility>
 
-#include "bakers/brick_sampler.h"
+#include "field/brick_field.h"
 
 namespace brickfield {
 
-/// Links to the neighbours that come later in scan order: a row of bits a step.
+/// A bit a sample of a brick: slice z, bit x + 8 y.
+using SampleMask = std::array<std::uint64_t, kBrickSamples>;
+
+inline bool isIn(const SampleMask& mask, std::size_t sample) { return mask[sample / 64] >> (sample % 64) & 1; }
+
+/// Calls visit(sample) for those of a mask, ascending.
+template <typename Visit>
+void forEachSample(const SampleMask& mask, const Visit& visit) {
+  for (std::size_t z = 0; z < mask.size(); ++z)
+    for (std::uint64_t rest = mask[z]; rest != 0; rest &= rest - 1)
+      visit(64 * z + static_cast<std::size_t>(std::countr_zero(rest)));
+}
+
+/// Samples that a triangle goes through: they have no side, and no neighbour can be told to lie on theirs.
+SampleMask samplesOffSurface(const float* distances);
+
+/// Of some samples of a brick that with the largest distance, of several the first.
+std::size_t deepestOf(const SampleMask& samples, const float* distances);
+
+/// Links to the neighbours that come later in scan order.
 class SampleLinks {
 public:
   /// distances  512, unsigned, in voxels
   explicit SampleLinks(const float* distances);
 
-  /// Floods from one sample over those that are left: takes them out of `left`, calls visit(sample) for each.
-  template <typename Visit>
-  void flood(std::size_t from, SampleRows& left, const Visit& visit) const;
+  /// Floods from a sample over those that are left, and takes them out of `left`.
+  ///
+  /// returns  what was reached, the sample among it
+  SampleMask flood(std::size_t from, SampleMask& left) const;
 
 private:
   struct Step {
     int x, y, z;
     float length;
   };
-  static constexpr int kRows = kBrickSamples * kBrickSamples; // along x, row y + 8 z
   static constexpr float kDiagonal = 1.41421356f, kSpaceDiagonal = 1.73205081f;
+  static constexpr std::size_t kStepsWithinSlice = 4;
   static constexpr std::array<Step, 13> kLaterNeighbours = {{
       {1, 0, 0, 1.0f},
       {-1, 1, 0, kDiagonal},
@@ -45,47 +64,15 @@ private:
       {1, 1, 1, kSpaceDiagonal},
   }};
 
-  /// The row some steps from another; -1: beyond the brick.
-  static int rowAt(int row, int y, int z) {
-    const int toY = row % kBrickSamples + y, toZ = row / kBrickSamples + z;
-    if (toY < 0 || toY >= kBrickSamples || toZ < 0 || toZ >= kBrickSamples) return -1;
-    return toZ * kBrickSamples + toY;
-  }
-  static std::uint8_t moved(std::uint8_t bits, int x) {
-    return static_cast<std::uint8_t>(x > 0 ? bits << x : bits >> -x);
-  }
-  std::uint8_t linkBits(const Step& step, int row) const;
+  template <std::size_t kStep>
+  static std::uint64_t ahead(std::uint64_t bits);
+  template <std::size_t kStep>
+  static std::uint64_t behind(std::uint64_t bits);
+  std::uint64_t grownWithin(std::size_t z, std::uint64_t front) const;
+  std::uint64_t grownUp(std::size_t z, std::uint64_t bits) const;
+  std::uint64_t grownDown(std::size_t z, std::uint64_t bits) const;
 
-  std::array<float, kBrickSampleCount + 2> padded_{};
-  std::array<SampleRows, kLaterNeighbours.size()> links_;
+  std::array<SampleMask, kLaterNeighbours.size()> links_; ///< a step: samples that it links to the next
 };
-
-template <typename Visit>
-void SampleLinks::flood(std::size_t from, SampleRows& left, const Visit& visit) const {
-  SampleRows added{};
-  std::array<std::uint8_t, kRows> pending;
-  std::size_t pendingCount = 0;
-  const auto add = [&](int row, std::uint8_t bits) {
-    const auto r = static_cast<std::size_t>(row);
-    bits &= left[r];
-    if (bits == 0) return;
-    left[r] = static_cast<std::uint8_t>(left[r] & ~bits);
-    if (added[r] == 0) pending[pendingCount++] = static_cast<std::uint8_t>(row);
-    added[r] |= bits;
-    for (unsigned rest = bits; rest != 0; rest &= rest - 1)
-      visit(r * kBrickSamples + static_cast<std::size_t>(std::countr_zero(rest)));
-  };
-  add(static_cast<int>(from / kBrickSamples), static_cast<std::uint8_t>(1u << from % kBrickSamples));
-  while (pendingCount > 0) {
-    const int row = pending[--pendingCount];
-    const std::uint8_t bits = std::exchange(added[static_cast<std::size_t>(row)], std::uint8_t{0});
-    for (std::size_t s = 0; s < kLaterNeighbours.size(); ++s) {
-      const Step& step = kLaterNeighbours[s];
-      const int ahead = rowAt(row, step.y, step.z), behind = rowAt(row, -step.y, -step.z);
-      if (ahead >= 0) add(ahead, moved(bits & links_[s][static_cast<std::size_t>(row)], step.x));
-      if (behind >= 0) add(behind, moved(bits, -step.x) & links_[s][static_cast<std::size_t>(behind)]);
-    }
-  }
-}
 
 } // namespace brickfield

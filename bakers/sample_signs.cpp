@@ -36,25 +36,19 @@ private:
     }
   }
 
-  /// The deepest sample of each group answers for it.
+  /// The deepest sample of each group answers for it. Those on the surface have no side: outside.
   void askGroups(const SampleCube& cube) {
-    SampleRows left{};
+    SampleMask left{};
     cube.forEach([&](glm::ivec3 sample) {
-      left[sampleIndex(sample) / kBrickSamples] |= static_cast<std::uint8_t>(1u << sample.x);
+      const std::size_t i = sampleIndex(sample);
+      left[i / 64] |= std::uint64_t{distances_[i] > 0} << (i % 64);
     });
-    cube.forEach([&](glm::ivec3 first) {
-      const std::size_t from = sampleIndex(first);
-      if (!(left[from / kBrickSamples] >> first.x & 1)) return;
-      std::array<std::uint16_t, kBrickSampleCount> group;
-      std::size_t count = 0, deepest = from;
-      links_->flood(from, left, [&](std::size_t sample) {
-        group[count++] = static_cast<std::uint16_t>(sample);
-        if (distances_[sample] > distances_[deepest] || (distances_[sample] == distances_[deepest] && sample < deepest))
-          deepest = sample;
-      });
-      const std::uint8_t sign = test_.isInside(grid_.sample(cell_, sampleOfIndex(deepest)));
-      for (std::size_t i = 0; i < count; ++i) signs_[group[i]] = sign;
-    });
+    for (std::size_t z = 0; z < left.size(); ++z)
+      while (left[z] != 0) {
+        const SampleMask group = links_->flood(64 * z + static_cast<std::size_t>(std::countr_zero(left[z])), left);
+        const std::uint8_t sign = test_.isInside(grid_.sample(cell_, sampleOfIndex(deepestOf(group, distances_))));
+        if (sign) forEachSample(group, [&](std::size_t i) { signs_[i] = sign; });
+      }
   }
 
   bool isSteady(const SampleCube& cube) const {

@@ -2,9 +2,11 @@
 // would lose them, or fill the room that they stand around, so they are given a thickness instead.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "bakers/inside_test.h"
 #include "bakers/mesh_hierarchy.h"
 #include "bakers/mesh_topology.h"
 
@@ -14,7 +16,9 @@ namespace brickfield {
 struct SolidsAndSheets {
   std::vector<std::uint32_t> solid;
   std::vector<std::uint32_t> sheets;
-  std::optional<MeshHierarchy> solidHierarchy; ///< of the solid ones, where the look at the others took one
+  /// Of the solid ones, where the look at the others took them.
+  std::unique_ptr<MeshHierarchy> solidHierarchy;
+  std::optional<SolidWinding> solidWinding; ///< by solidHierarchy
 };
 
 struct SheetRequest {

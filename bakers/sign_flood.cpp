@@ -17,21 +17,15 @@ constexpr std::size_t kVotes = 16; // inside tests a region; fewer where it has 
 
 enum class PatchSign : std::uint8_t { Outside, Inside, Mixed };
 
-/// Counts the inside tests of each of many things.
-class Ballot {
-public:
-  explicit Ballot(std::size_t count) : inside_(count, 0), all_(count, 0) {}
-  void cast(std::size_t thing, bool inside) {
-    inside_[thing] += inside;
-    ++all_[thing];
-  }
-  PatchSign signOf(std::size_t thing) const {
-    if (inside_[thing] == 0) return PatchSign::Outside;
-    return inside_[thing] == all_[thing] ? PatchSign::Inside : PatchSign::Mixed;
-  }
+/// Inside tests of a patch or a region.
+struct Ballot {
+  std::uint32_t inside = 0, all = 0;
 
-private:
-  std::vector<std::uint32_t> inside_, all_;
+  void cast(bool isInside) { inside += isInside, ++all; }
+  PatchSign sign() const {
+    if (inside == 0) return PatchSign::Outside;
+    return inside == all ? PatchSign::Inside : PatchSign::Mixed;
+  }
 };
 
 /// Patches of steady cells that meet are one region. Up to kVotes patches of each region vote, spread over its list,
@@ -58,24 +52,24 @@ std::vector<PatchSign> signsByRegion(const PatchGraph& graph, const InsideTest& 
   std::vector<std::uint8_t> votes(voters.size());
   tbb::parallel_for(std::size_t{0}, voters.size(),
                     [&](std::size_t i) { votes[i] = test.isInside(graph.pointOf(voters[i])); });
-  Ballot ballot(count);
-  for (std::size_t i = 0; i < voters.size(); ++i) ballot.cast(regionOfPatch[voters[i]], votes[i]);
+  std::vector<Ballot> ballots(count);
+  for (std::size_t i = 0; i < voters.size(); ++i) ballots[regionOfPatch[voters[i]]].cast(votes[i]);
   std::vector<PatchSign> signs(count);
-  for (std::uint32_t patch = 0; patch < count; ++patch) signs[patch] = ballot.signOf(regionOfPatch[patch]);
+  for (std::uint32_t patch = 0; patch < count; ++patch) signs[patch] = ballots[regionOfPatch[patch]].sign();
   return signs;
 }
 
 /// Decides regions together and unsteady cells sample by sample.
 class SignFlood {
 public:
-  SignFlood(const LevelSamples& level, const InsideTest& test)
-      : level_(level), test_(test), graph_(level), isSteady_(findSteadyCells(level.grid, test)) {
+  SignFlood(const LevelSamples& level, const MeshDistance& solid, const InsideTest& test)
+      : level_(level), test_(test), graph_(level, solid), isSteady_(findSteadyCells(level.grid, test)) {
     isVoter_.resize(graph_.patchCount());
     for (std::size_t cell = 0; cell < isSteady_.size(); ++cell)
       if (level.brickOfCell[cell] == kNoBrick) isVoter_[cell] = isSteady_[cell];
     for (std::size_t b = 0; b < level.brickCount(); ++b)
-      for (const std::uint16_t deepest : graph_.brick(b).deepest)
-        isVoter_[graph_.patchOf(b, deepest)] = isSteady_[level.cellOfBrick[b]];
+      for (std::uint32_t patch = graph_.firstPatchOf(b); patch < graph_.endPatchOf(b); ++patch)
+        isVoter_[patch] = isSteady_[level.cellOfBrick[b]];
   }
 
   LevelSigns run() {
@@ -97,31 +91,42 @@ private:
   std::uint8_t signOfCell(std::size_t cell) {
     const glm::ivec3 brick = level_.grid.brickOfCell(cell);
     if (!isSteady_[cell]) {
-      Ballot ballot(1);
-      for (const std::uint8_t sign : askSamples(level_.grid, brick, test_, nullptr)) ballot.cast(0, sign);
-      patchSigns_[cell] = ballot.signOf(0);
+      Ballot ballot;
+      for (const std::uint8_t sign : askSamples(level_.grid, brick, test_, nullptr)) ballot.cast(sign != 0);
+      patchSigns_[cell] = ballot.sign();
     }
     return patchSigns_[cell] == PatchSign::Mixed ? test_.isInside(level_.grid.brickCenter(brick))
                                                  : patchSigns_[cell] == PatchSign::Inside;
   }
 
+  /// Samples on the surface have no side: outside, unless one was asked for.
   void signBrick(std::size_t b, std::uint8_t* sampleInside) {
     const glm::ivec3 brick = level_.grid.brickOfCell(level_.cellOfBrick[b]);
+    const auto forEachPatch = [&](const auto& visit) {
+      for (std::uint32_t patch = graph_.firstPatchOf(b); patch < graph_.endPatchOf(b); ++patch)
+        visit(patchSigns_[patch], graph_.samplesOf(patch));
+    };
     if (isSteady_[level_.cellOfBrick[b]]) {
-      for (std::size_t i = 0; i < kSamples; ++i) {
-        const PatchSign sign = patchSigns_[graph_.patchOf(b, i)];
-        sampleInside[i] = sign == PatchSign::Mixed ? test_.isInside(level_.grid.sample(brick, sampleOfIndex(i)))
-                                                   : sign == PatchSign::Inside;
-      }
+      SampleMask inside{};
+      forEachPatch([&](PatchSign sign, const SampleMask& samples) {
+        if (sign == PatchSign::Inside)
+          for (std::size_t z = 0; z < inside.size(); ++z) inside[z] |= samples[z];
+        if (sign == PatchSign::Mixed)
+          forEachSample(samples, [&](std::size_t i) {
+            const bool isInside = test_.isInside(level_.grid.sample(brick, sampleOfIndex(i)));
+            inside[i / 64] |= std::uint64_t{isInside} << (i % 64);
+          });
+      });
+      for (std::size_t i = 0; i < kSamples; ++i) sampleInside[i] = isIn(inside, i);
       return;
     }
     const SampleSigns asked = askSamples(level_.grid, brick, test_, &level_.solidDistances[b * kSamples]);
     std::copy(asked.begin(), asked.end(), sampleInside);
-    const BrickPatches& patches = graph_.brick(b);
-    Ballot ballot(patches.deepest.size());
-    for (std::size_t i = 0; i < kSamples; ++i) ballot.cast(patches.patchOfSample[i], asked[i]);
-    for (std::size_t patch = 0; patch < patches.deepest.size(); ++patch)
-      patchSigns_[graph_.patchOf(b, patches.deepest[patch])] = ballot.signOf(patch);
+    forEachPatch([&](PatchSign& sign, const SampleMask& samples) {
+      Ballot ballot;
+      forEachSample(samples, [&](std::size_t i) { ballot.cast(asked[i] != 0); });
+      sign = ballot.sign();
+    });
   }
 
   /// Cells with patches of two signs, and those where patches that meet disagree.
@@ -153,6 +158,8 @@ private:
 
 } // namespace
 
-LevelSigns floodSigns(const LevelSamples& level, const InsideTest& test) { return SignFlood(level, test).run(); }
+LevelSigns floodSigns(const LevelSamples& level, const MeshDistance& solid, const InsideTest& test) {
+  return SignFlood(level, solid, test).run();
+}
 
 } // namespace brickfield

@@ -9,14 +9,14 @@
 namespace brickfield {
 
 struct LevelSigns {
-  std::vector<std::uint8_t> sampleInside; ///< 512 a brick
+  LargeVector<std::uint8_t> sampleInside; ///< 512 a brick
   std::vector<std::uint8_t> cellInside;   ///< a cell; of use where there is no brick
   std::vector<std::uint32_t> mixedCells; ///< ascending: cells, with and without brick, where the sign changes by itself
 };
 
-/// level     with solid distances
+/// level     with distances to `solid`
 /// returns   1 where inside the solids
 /// proved by tests/bake/bakers/bake_field_test.cpp
-LevelSigns floodSigns(const LevelSamples& level, const InsideTest& test);
+LevelSigns floodSigns(const LevelSamples& level, const MeshDistance& solid, const InsideTest& test);
 
 } // namespace brickfield

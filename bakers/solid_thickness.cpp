@@ -27,8 +27,7 @@ std::optional<double> SolidThickness::behind(std::uint32_t triangle, glm::dvec3 
   const double radius = 0.5 * limit;
   const double fromEmpty = glm::length(point + radius * inwards - known.emptyCenter);
   if (fromEmpty + (1 - kBallSlack) * radius < known.emptyRadius) return HUGE_VAL;
-  if (solid_->closest(point + radius * inwards, (1 - kBallSlack) * radius, triangle).triangle == kNoTriangle)
-    return HUGE_VAL;
+  if (solid_->nearest(point + radius * inwards, (1 - kBallSlack) * radius).triangle == kNoTriangle) return HUGE_VAL;
   if (!inside_->isInside(point + radius * inwards)) return endBetween(point, inwards, {probe, radius});
   if (!inside_->isInside(point + limit * inwards)) return endBetween(point, inwards, {radius, limit});
   return HUGE_VAL;

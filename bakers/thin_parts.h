@@ -25,8 +25,8 @@ inline constexpr double kMostGrowthVoxels = 0.5625;
 ///
 /// voxelSize  soup space
 /// resolution that gives such voxels
-/// returns    to the accuracy of 4096 places, 0.5 % at most
-/// cost       4096 thicknesses; all threads, the same result on any number
+/// returns    to the accuracy of 4096 places, 0.5 % at most; nothing where none of the first 1024 is thin
+/// cost       1024 or 4096 thicknesses; all threads, the same result on any number
 /// proved by  tests/bake/bakers/thin_parts_test.cpp
 ThinParts findThinParts(const SolidThickness& thickness, double voxelSize, int resolution);
 
@@ -35,7 +35,7 @@ ThinParts findThinParts(const SolidThickness& thickness, double voxelSize, int r
 ///
 /// cost      a thickness for each sample within three voxels of closed solids; all threads
 /// proved by tests/bake/bakers/thin_parts_test.cpp
-std::vector<float> growThinSolids(const SolidThickness& thickness, const SamplingRequest& request,
-                                  const LevelSamples& level, const std::vector<std::uint8_t>& sampleInside);
+LargeVector<float> growThinSolids(const SolidThickness& thickness, const SamplingRequest& request,
+                                  const LevelSamples& level, const LargeVector<std::uint8_t>& sampleInside);
 
 } // namespace brickfield

@@ -20,7 +20,9 @@ constexpr double kLeastHeightOverEdge = 1e-12; // four decimal digits above the 
 /// Open-addressed table of positions: far faster than a node-based map for the millions of vertices of a scan.
 class PositionWelder {
 public:
-  explicit PositionWelder(std::size_t vertexCount) : slots_(std::bit_ceil(2 * vertexCount + 2), kFree) {}
+  explicit PositionWelder(std::size_t vertexCount) : slots_(std::bit_ceil(2 * vertexCount + 2), kFree) {
+    points_.reserve(vertexCount);
+  }
 
   std::uint32_t indexOf(glm::vec3 position) {
     position += glm::vec3(0.0f); // -0 becomes 0
@@ -32,7 +34,7 @@ public:
     }
     return slots_[slot];
   }
-  const std::vector<glm::vec3>& points() const { return points_; }
+  const LargeVector<glm::vec3>& points() const { return points_; }
 
 private:
   static constexpr std::uint32_t kFree = ~0u;
@@ -44,8 +46,8 @@ private:
     return static_cast<std::size_t>(h ^ (h >> 32));
   }
 
-  std::vector<std::uint32_t> slots_;
-  std::vector<glm::vec3> points_;
+  LargeVector<std::uint32_t> slots_;
+  LargeVector<glm::vec3> points_;
 };
 
 void checkPrimitive(const BakeInput& input, std::size_t primitiveIndex) {
@@ -71,7 +73,7 @@ bool hasArea(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
 void gatherPrimitive(TriangleSoup& soup, PositionWelder& welder, const BakeInput& input, std::size_t primitiveIndex) {
   const Primitive& primitive = *input.primitives[primitiveIndex];
   const std::vector<glm::vec3>& positions = input.positionsObject[primitiveIndex];
-  std::vector<std::uint32_t> weldedOf(positions.size(), kNotWelded); // in the order of their first use
+  LargeVector<std::uint32_t> weldedOf(positions.size(), kNotWelded); // in the order of their first use
   const auto weld = [&](std::uint32_t vertex) {
     if (weldedOf[vertex] == kNotWelded) weldedOf[vertex] = welder.indexOf(positions[vertex]);
     return weldedOf[vertex];

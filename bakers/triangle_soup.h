@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bakers/bake.h"
+#include "bakers/large_vector.h"
 
 namespace brickfield {
 
@@ -21,11 +22,11 @@ using TriangleVertices = std::array<std::uint32_t, 3>;
 struct TriangleSoup {
   glm::dvec3 centerObject{0.0};                ///< zero of soup space
   double unitsPerMetre = 1;                    ///< a power of two
-  std::vector<glm::dvec3> positions;           ///< soup space, no two the same
-  std::vector<TriangleVertices> triangles;     ///< of positive area
+  LargeVector<glm::dvec3> positions;           ///< soup space, no two the same
+  LargeVector<TriangleVertices> triangles;     ///< of positive area
   std::vector<TriangleVertices> slivers;       ///< dropped ones whose three vertices differ: only for topology
-  std::vector<std::uint32_t> primitiveIndices; ///< a triangle: into BakeInput::primitives
-  std::vector<std::uint32_t> triangleIndices;  ///< a triangle: number within its primitive
+  LargeVector<std::uint32_t> primitiveIndices; ///< a triangle: into BakeInput::primitives
+  LargeVector<std::uint32_t> triangleIndices;  ///< a triangle: number within its primitive
   /// A triangle: another one covers its back (MeshTopology::isFlatPair). Empty: none does.
   std::vector<bool> isBackCovered;
   std::uint64_t degenerateCount = 0; ///< dropped triangles

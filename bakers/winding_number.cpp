@@ -32,12 +32,16 @@ constexpr float kNowhere = 1e12f;      // its cube is finite in float: an absent
 constexpr std::array<std::array<std::size_t, 3>, 10> kMonomials = {
     {{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 1, 1}, {0, 1, 2}, {0, 2, 2}, {1, 1, 1}, {1, 1, 2}, {1, 2, 2}, {2, 2, 2}}};
 
-std::size_t monomialOf(glm::length_t i, glm::length_t j, glm::length_t k) {
-  std::array<std::size_t, 3> sorted = {static_cast<std::size_t>(i), static_cast<std::size_t>(j),
-                                       static_cast<std::size_t>(k)};
-  std::sort(sorted.begin(), sorted.end());
-  return static_cast<std::size_t>(std::find(kMonomials.begin(), kMonomials.end(), sorted) - kMonomials.begin());
-}
+/// Which of them is r_i r_j r_k.
+constexpr auto kMonomialOf = [] {
+  std::array<std::array<std::array<std::size_t, 3>, 3>, 3> monomialOf{};
+  for (std::size_t m = 0; m < kMonomials.size(); ++m)
+    for (std::size_t order = 0; order < 6; ++order) {
+      const std::size_t i = order % 3, j = (i + 1 + order / 3) % 3, k = 3 - i - j;
+      monomialOf[kMonomials[m][i]][kMonomials[m][j]][kMonomials[m][k]] = m;
+    }
+  return monomialOf;
+}();
 
 namespace portable {
 #include "bakers/winding_walk.inl"
@@ -142,8 +146,9 @@ void WindingNumber::setLane(WindingMoments& moments, std::size_t lane, const Clu
   glm::dvec3 trace(0.0);
   for (glm::length_t i = 0; i < 3; ++i)
     for (glm::length_t j = 0; j < 3; ++j) {
+      const auto& products = kMonomialOf[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
       for (glm::length_t k = 0; k < 3; ++k)
-        cubics[monomialOf(i, j, k)] += cluster.second[static_cast<std::size_t>(i)][j][k];
+        cubics[products[static_cast<std::size_t>(k)]] += cluster.second[static_cast<std::size_t>(i)][j][k];
       trace[j] += 2.0 * cluster.second[static_cast<std::size_t>(i)][i][j];
       trace[i] += cluster.second[static_cast<std::size_t>(i)][j][j];
     }

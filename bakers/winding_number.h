@@ -45,7 +45,7 @@ private:
 
   const MeshHierarchy* hierarchy_;
   float farRadii_;
-  std::vector<WindingMoments> moments_; ///< a node each
+  LargeVector<WindingMoments> moments_; ///< a node each
 };
 
 } // namespace brickfield
