@@ -110,6 +110,15 @@ void addDevice(CLI::App& command, FieldBenchRequest& request) {
   addPath(command, "--json", "The figures as .json", request.json);
 }
 
+/// Crowds stand instead of the tables and errors: what shapes the one says nothing to the other.
+void separateMovers(CLI::App& command) {
+  CLI::Option* movers = command.get_option("--movers");
+  for (const char* name : {"--show", "--sizes", "--rays", "--masks", "--error-frames", "--error-samples", "--bandwidth",
+                           "--tera-operations"})
+    movers->excludes(command.get_option(name));
+  for (const char* name : {"--field-cascades", "--field-texels"}) command.get_option(name)->needs(movers);
+}
+
 void addWorldField(CLI::App& bench, CommandAction& chosen) {
   CLI::App& command = *bench.add_subcommand(
       "world-field", "The tables of the RTSDF paper, measured for both methods, and their errors");
@@ -120,6 +129,7 @@ void addWorldField(CLI::App& bench, CommandAction& chosen) {
   addMovers(command, *request);
   addErrors(command, *request);
   addDevice(command, *request);
+  separateMovers(command);
   command.callback([request, &chosen] {
     chosen = [request] {
       runFieldBench(*request);

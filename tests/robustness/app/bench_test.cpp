@@ -26,6 +26,9 @@ TEST_F(BenchCommand, RefusesWhatItCannotMeasure) {
   expectFlag("--movers", "all");
   expectFlag("--field-cascades", "9");
   expectFlag("--field-texels", "96");
+  expectRefused({"bench", "world-field", "scene.gltf", "--field-texels", "128"},
+                {"--field-texels", "requires --movers"});
+  expectRefused({"bench", "world-field", "scene.gltf", "--movers", "5", "--show", "table3"}, {"--movers", "--show"});
   expectFlag("--error-frames", "0");
   expectFlag("--error-samples", "0");
   expectFlag("--bandwidth", "0");
