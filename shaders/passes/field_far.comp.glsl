@@ -102,7 +102,9 @@ void resolveReached(ListedTile tile, FieldCascade cascade) {
   FieldTile kept = tiles[tile.word];
   bool isBand = isBandTile(kept);
   bool isInside = coarseValue(cascade, tile.firstTexel / COARSE + cubeIndex(int(kept.nearestTexel), COARSE_TILE)) < 0.0;
-  load(tile, cascade, isInside ? -cascade.texel.z : cascade.texel.z);
+  // What has no candidate is farther away than that (field_candidates).
+  float unknown = cascade.texel.z + 1.5;
+  load(tile, cascade, isInside ? -unknown : unknown);
   findTears();
   for (int i = int(gl_LocalInvocationIndex); i < int(FIELD_TILE_TEXELS); i += 128) {
     ivec3 at = cubeIndex(i, int(FIELD_TILE)), lattice = tile.firstTexel + at;
