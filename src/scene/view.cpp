@@ -233,13 +233,30 @@ View makePerspectiveView(glm::vec3 eyeWorld, glm::vec3 targetWorld, float vertic
                     sizePixels);
 }
 
+View makeParallelView(glm::dvec3 eyeWorld, glm::dvec3 forwardWorld, double halfExtent, double nearDistance,
+                      double farDistance, glm::uvec2 sizePixels) {
+  Placement placement;
+  placement.eye = eyeWorld;
+  placement.axes = axesFrom(forwardWorld, glm::dvec3(0, 1, 0));
+  placement.camera.nearDistance = static_cast<float>(nearDistance);
+  placement.camera.orthographic = true;
+  return finishView(placement, orthographicClipFromView(glm::dvec2(halfExtent), nearDistance, farDistance), sizePixels);
+}
+
 glm::dmat4 clipFromEye(const View& view) {
   const glm::dmat3 axes(view.worldFromView);
-  return glm::dmat4(view.clipFromView) * glm::dmat4(glm::transpose(axes));
+  glm::dmat4 clip = glm::dmat4(view.clipFromView) * glm::dmat4(glm::transpose(axes));
+  if (view.jitterNdc == glm::vec2(0)) return clip;
+  for (int column = 0; column < 4; ++column) {
+    clip[column].x += double{view.jitterNdc.x} * clip[column].w;
+    clip[column].y += double{view.jitterNdc.y} * clip[column].w;
+  }
+  return clip;
 }
 
 PrimaryRay primaryRay(const View& view, glm::vec2 pixel) {
-  const glm::dvec2 ndc(2.0 * pixel.x / view.sizePixels.x - 1.0, 1.0 - 2.0 * pixel.y / view.sizePixels.y);
+  const glm::dvec2 ndc(2.0 * pixel.x / view.sizePixels.x - 1.0 - view.jitterNdc.x,
+                       1.0 - 2.0 * pixel.y / view.sizePixels.y - view.jitterNdc.y);
   const glm::dvec2 onPlane(ndc.x / view.clipFromView[0][0], ndc.y / view.clipFromView[1][1]);
   const glm::dmat4 worldFromView(view.worldFromView);
   if (view.orthographic)

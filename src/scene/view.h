@@ -29,6 +29,7 @@ struct View {
   float nearDistance = 0.01f;
   bool orthographic = false;
   glm::uvec2 sizePixels{1280, 720};
+  glm::vec2 jitterNdc{0.0f}; ///< by which the picture is moved, clipFromEye and primaryRay alone know of it
 };
 
 /// Chooses, places and projects. "auto" frames the pose's bounds from the front, slightly above and to the right.
@@ -39,6 +40,11 @@ View makeView(const Scene& scene, const Pose& pose, const CameraRequest& request
 /// A view built by hand: perspective with infinite far plane.
 View makePerspectiveView(glm::vec3 eyeWorld, glm::vec3 targetWorld, float verticalFovRadians, float nearDistance,
                          glm::uvec2 sizePixels);
+
+/// A parallel view built by hand: looks along forwardWorld with its up as near to +Y as may be, a square of
+/// 2 * halfExtent metres; depth 1 at nearDistance, 0 at farDistance. The axes depend on forwardWorld alone.
+View makeParallelView(glm::dvec3 eyeWorld, glm::dvec3 forwardWorld, double halfExtent, double nearDistance,
+                      double farDistance, glm::uvec2 sizePixels);
 
 /// Clip space from eye space: the world's axes with the eye as origin. For points near the eye it keeps the digits that
 /// clipFromWorld loses far from the origin.
