@@ -8,7 +8,7 @@ layout(std140, binding = kFrameUniformBinding) uniform FrameBlock { FrameParams 
 
 // Ray through a point of the picture in NDC. Twin of scene/view.h primaryRay (t = 0 at the eye or the eye's plane).
 void viewRay(vec2 ndc, out vec3 originEye, out vec3 directionWorld) {
-  vec2 pointView = ndc / frame.projection.xy;
+  vec2 pointView = (ndc - frame.jitter.xy) / frame.projection.xy;
   bool orthographic = frame.projection.z > 0.5;
   vec3 directionView = orthographic ? vec3(0.0, 0.0, -1.0) : normalize(vec3(pointView, -1.0));
   vec3 offsetView = orthographic ? vec3(pointView, 0.0) : vec3(0.0);

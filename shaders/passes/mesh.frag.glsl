@@ -2,6 +2,7 @@
 // front face of mirrored instances); here alpha is cut and normals are mapped.
 #include "lib/frame.glsl"
 #include "lib/material.glsl"
+#include "lib/motion.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/packing.glsl"
 
@@ -20,6 +21,10 @@ layout(location = 2) out vec4 material;         // metallic, roughness, occlusio
 layout(location = 3) out vec3 emission;
 layout(location = 4) out uint id;
 layout(location = 5) out uvec2 trace;
+#ifdef MOTION_ON
+layout(location = 6) in vec3 previousPointEye;
+layout(location = 6) out vec4 motion;
+#endif
 
 // The triangle's own normal, turned towards the viewer.
 vec3 faceNormal() {
@@ -71,4 +76,7 @@ void main() {
   emission = emitted;
   id = packId(uint(row.ids.x), KIND_MESH);
   trace = uvec2(0u);
+#ifdef MOTION_ON
+  motion = vec4(motionOf(pointEye, previousPointEye), 0.0);
+#endif
 }

@@ -19,6 +19,21 @@ layout(location = 2) out vec4 tangentWorld; // w: sign of the bitangent, 0 witho
 layout(location = 3) out vec4 uvSets;
 layout(location = 4) out vec4 vertexColor;
 layout(location = 5) flat out uint draw;
+#ifdef MOTION_ON
+layout(std430, binding = kPassBufferABinding) readonly buffer MotionBlock { MeshMotion meshMotions[]; };
+layout(std430, binding = kPassBufferBBinding) readonly buffer PreviousVertexBlock { MeshVertex previousVertices[]; };
+layout(std430, binding = kMotionVertexBinding) readonly buffer VertexBlock { MeshVertex vertices[]; };
+layout(location = 6) out vec3 previousPointEye;
+
+// Where the vertex was in the frame before, from the eye of now.
+vec3 previousPlace() {
+  MeshMotion motion = meshMotions[drawIndex];
+  int number = gl_VertexID - motion.vertices.y;
+  vec3 position = motion.vertices.x >= 0 ? previousVertices[motion.vertices.x + number].position.xyz
+                                         : vertices[motion.vertices.z + number].position.xyz;
+  return mat3(motion.previousWorldFromObject) * position + (motion.previousWorldFromObject[3].xyz - frame.eyeWorld.xyz);
+}
+#endif
 
 void main() {
   MeshDraw row = meshDraws[drawIndex];
@@ -33,5 +48,8 @@ void main() {
   uvSets = uv;
   vertexColor = color;
   draw = drawIndex;
+#ifdef MOTION_ON
+  previousPointEye = previousPlace();
+#endif
   gl_Position = frame.clipFromEye * vec4(pointEye, 1.0);
 }

@@ -7,6 +7,7 @@ SHARED_BEGIN
 
 // Uniform buffers
 SHARED_CONST uint kFrameUniformBinding = 0;
+SHARED_CONST uint kShadowMapUniformBinding = 2;
 // Storage buffers. OpenGL 4.5 promises eight to a stage; no program uses more.
 SHARED_CONST uint kMeshDrawBinding = 0;
 SHARED_CONST uint kMaterialBinding = 1;
@@ -16,6 +17,7 @@ SHARED_CONST uint kIndirectionBinding = 4;
 SHARED_CONST uint kLightBinding = 1;       // of passes that know no materials
 SHARED_CONST uint kPassBufferABinding = 6; // what one pass alone uses
 SHARED_CONST uint kPassBufferBBinding = 7;
+SHARED_CONST uint kMotionVertexBinding = 5; // the mesh pool's vertices, where meshes have motion vectors
 SHARED_CONST uint kDeformSourceBinding = 0;
 SHARED_CONST uint kDeformResultBinding = 1;
 SHARED_CONST uint kDeformInfluenceBinding = 2;
@@ -62,6 +64,11 @@ SHARED_CONST uint kOverdrawUnit = 10;
 SHARED_CONST uint kShadowUnit = 11;
 SHARED_CONST uint kShadowReadsUnit = 15;
 SHARED_CONST uint kShadowHalfUnit = 12;
+SHARED_CONST uint kShadowMapUnit = 13;
+SHARED_CONST uint kShadowMomentsUnit = 14;
+SHARED_CONST uint kMotionUnit = 24;
+SHARED_CONST uint kHistoryUnit = 25;
+SHARED_CONST uint kHistoryDepthUnit = 26;
 SHARED_CONST uint kWorldFieldUnit = 16; // of those that read the world field; a unit a cascade
 
 SHARED_END

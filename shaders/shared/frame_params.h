@@ -15,8 +15,10 @@ struct FrameParams {
   vec4 debugRange;    // x, y: values shown as 0 and 1 by the debug views; z: 1 checks the depth promise
   vec4 eyeAnchored;   // xyz: the eye, metres from the world field's anchor; 0 where no field was asked for
   vec4 irradiance[9]; // spherical harmonics, rgb
+  mat4 previousClipFromEye; // clip space of the frame before, without jitter, from eye space of now
+  vec4 jitter;              // xy: NDC by which this frame's projection is moved
 };
-SHARED_ASSERT_SIZE(FrameParams, 128 + 6 * 16 + 9 * 16)
+SHARED_ASSERT_SIZE(FrameParams, 128 + 6 * 16 + 9 * 16 + 80)
 
 // A light that is on. Units as in KHR_lights_punctual.
 struct LightRow {
@@ -55,6 +57,10 @@ SHARED_CONST uint DEBUG_VIEW_FIELD_TILES = 11;
 SHARED_CONST uint DEBUG_VIEW_FIELD_SURFACE = 12;
 SHARED_CONST uint DEBUG_VIEW_SHADOW = 13;
 SHARED_CONST uint DEBUG_VIEW_SHADOW_READS = 14;
+SHARED_CONST uint DEBUG_VIEW_SHADOW_MAP = 20; // these two read the shadow maps
+SHARED_CONST uint DEBUG_VIEW_SHADOW_CASCADE = 21;
+SHARED_CONST uint DEBUG_VIEW_MOTION = 22; // these two read what temporal antialiasing keeps
+SHARED_CONST uint DEBUG_VIEW_TAA_FRAMES = 23;
 
 SHARED_END
 

@@ -19,6 +19,13 @@ struct MeshDraw {
 };
 SHARED_ASSERT_SIZE(MeshDraw, 80)
 
+// Where a draw was in the frame before.
+struct MeshMotion {
+  mat4 previousWorldFromObject;
+  ivec4 vertices; // x: first of its deformed vertices of then, -1 none; y: its first vertex now; z: its undeformed one
+};
+SHARED_ASSERT_SIZE(MeshMotion, 80)
+
 SHARED_CONST uint DRAW_FLAT_NORMALS = 1;
 SHARED_CONST uint DRAW_MIRRORED = 2;
 

@@ -14,6 +14,12 @@ struct SdfInstance {
 };
 SHARED_ASSERT_SIZE(SdfInstance, 144)
 
+// Where an instance was in the frame before.
+struct SdfMotion {
+  vec4 previousWorldFromGrid[3];
+};
+SHARED_ASSERT_SIZE(SdfMotion, 48)
+
 SHARED_CONST uint SDF_DOUBLE_SIDED = 1;
 
 struct SdfLevel {
@@ -65,7 +71,9 @@ SHARED_CONST uint COUNTER_BRICK_READS = 3;
 SHARED_CONST uint COUNTER_PROMISE_BROKEN = 4;
 SHARED_CONST uint COUNTER_OUT_OF_STEPS = 5;
 SHARED_CONST uint COUNTER_SHADOW_READS = 6;
-SHARED_CONST uint COUNTERS = 8;
+SHARED_CONST uint COUNTER_MAP_FRAGMENTS = 12; // boxes in shadow maps
+SHARED_CONST uint COUNTER_MAP_STEPS = 13;
+SHARED_CONST uint COUNTERS = 16;
 
 SHARED_END
 

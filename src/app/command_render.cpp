@@ -53,6 +53,17 @@ void addOptions(CLI::App& command, RenderRequest& request) {
   addFieldOptions(command, request.field);
   addRenderShadows(command, request.shadows);
   addFieldShadowOptions(command, request.fieldShadows);
+  addShadowMapOptions(command, request.shadowMaps);
+  addValue(command, "--taa", "Temporal antialiasing, on or off (the default); give it --frames",
+           [&](auto& flag, auto& text) {
+             if (text != "on" && text != "off")
+               throw BadInput(flag, fmt::format("\"{}\"", text), "is neither on nor off");
+             request.taa.on = text == "on";
+           })
+      ->type_name("SWITCH");
+  addValue(command, "--sharpness", "Of temporal antialiasing, 0 (the default) to 1", [&](auto& flag, auto& text) {
+    request.taa.sharpness = static_cast<float>(parseNumber(flag, text, 0, 1));
+  })->type_name("S");
   addName(command, "--view", "A debug view instead of the picture; see \"brickfield list views\"", request.view);
   addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", request.layers);
   addPath(command, "--stats", "Times, counts and memory as .json", request.stats);

@@ -92,6 +92,9 @@ Json settingsJson(const RenderRun& run) {
                                             ? Json("objects")
                                             : Json(request.fieldShadows.brickVoxels)}};
   }
+  if (request.shadows == ShadowChoice::Csm)
+    json["shadow_maps"] = {{"filter", shadowFilterName(request.shadowMaps.filter)}, {"size", request.shadowMaps.size}};
+  json["taa"] = {{"on", request.taa.on}, {"sharpness", request.taa.sharpness}};
   json["light"] = request.light.texts.empty() ? Json("scene") : Json(request.light.texts);
   json["environment"] = request.light.environment.empty() ? "sky" : request.light.environment.string();
   json["exposure"] = request.exposureEv;
@@ -180,7 +183,10 @@ Json countsJson(const FrameStats& stats) {
           {"brick_reads", stats.counters.brickReads},
           {"promise_broken", stats.counters.promiseBroken},
           {"out_of_steps", stats.counters.outOfSteps},
-          {"shadow_reads", stats.counters.shadowReads}};
+          {"shadow_reads", stats.counters.shadowReads},
+          {"shadow_map_layers", stats.shadowMapLayers},
+          {"shadow_map_fragments", stats.counters.mapFragments},
+          {"shadow_map_steps", stats.counters.mapSteps}};
 }
 
 // Of the last frame; tiles are those of the exact field.
@@ -218,6 +224,8 @@ Json bytesJson(const GpuBytes& gpu) {
           {"textures", gpu.textures},
           {"tables", gpu.tables},
           {"targets", gpu.targets},
+          {"shadow_maps", gpu.shadowMaps},
+          {"temporal", gpu.temporal},
           {"host_peak", peakHostBytes()}};
 }
 

@@ -33,6 +33,9 @@ RendererSettings settingsOf(const RenderRequest& request) {
   settings.shadows = request.fieldShadows.settings;
   settings.shadows.seed = static_cast<std::uint32_t>(request.scene.seed ^ request.scene.seed >> 32) + 1;
   if (request.shadows == ShadowChoice::Field) settings.shadows.method = ShadowMethod::Field;
+  if (request.shadows == ShadowChoice::Csm) settings.shadows.method = ShadowMethod::Maps;
+  settings.shadowMaps = request.shadowMaps;
+  settings.taa = request.taa;
   settings.fieldSlice = request.field.slice;
   return settings;
 }

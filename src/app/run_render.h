@@ -25,7 +25,9 @@ struct RenderRequest {
   TraceChoice trace = TraceChoice::Auto;
   ShadowChoice shadows = ShadowChoice::None;
   FieldShadowChoice fieldShadows; ///< checked
-  FieldChoice field;              ///< settled
+  ShadowMapSettings shadowMaps;
+  TaaSettings taa;
+  FieldChoice field; ///< settled
   float exposureEv = 0;
   std::string view; ///< one of debugViews(); empty: the lit picture
   int device = -1;  ///< -1: the first that works

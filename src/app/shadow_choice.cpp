@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
+#include "app/parse.h"
 #include "core/error.h"
 
 namespace brickfield {
@@ -27,16 +28,36 @@ bool isNone(const std::string& flag, const std::string& text) {
 
 void addRenderShadows(CLI::App& command, ShadowChoice& choice) {
   choice = ShadowChoice::None;
-  addValue(command, "--shadows",
-           "Shadows of the first four lights: field (soft, by marching the world field), or none, the default",
-           [&](auto& flag, auto& text) {
-             const bool none = isNone(flag, text);
-             if (!none && text != "field")
-               throw BadInput(flag, fmt::format("\"{}\"", text), "is not drawn by this version; field and none are");
-             choice = none ? ShadowChoice::None : ShadowChoice::Field;
-           })
+  addValue(
+      command, "--shadows",
+      "Shadows of the first four lights: field (soft, by marching the world field), csm (shadow maps: four cascades "
+      "for suns, one map for spots, six for all others), or none, the default",
+      [&](auto& flag, auto& text) {
+        const bool none = isNone(flag, text);
+        if (!none && text != "field" && text != "csm")
+          throw BadInput(flag, fmt::format("\"{}\"", text), "is not drawn by this version; field, csm and none are");
+        choice = none ? ShadowChoice::None : text == "csm" ? ShadowChoice::Csm : ShadowChoice::Field;
+      })
       ->type_name("KIND");
 }
+
+void addShadowMapOptions(CLI::App& command, ShadowMapSettings& settings) {
+  addValue(command, "--shadow-filter",
+           "How shadow maps are filtered: pcf (three texels a side, the default) or evsm (moments, blurred over 15)",
+           [&](auto& flag, auto& text) {
+             if (text != "pcf" && text != "evsm")
+               throw BadInput(flag, fmt::format("\"{}\"", text), "is neither pcf nor evsm");
+             settings.filter = text == "evsm" ? ShadowFilter::Evsm : ShadowFilter::Pcf;
+           })
+      ->type_name("FILTER");
+  addValue(command, "--shadow-size", fmt::format("Texels of a shadow map's side, {} by default", settings.size),
+           [&](auto& flag, auto& text) {
+             settings.size = static_cast<int>(parseWhole(flag, text, kLeastShadowTexels, kMostShadowTexels));
+           })
+      ->type_name("N");
+}
+
+const char* shadowFilterName(ShadowFilter filter) { return filter == ShadowFilter::Evsm ? "evsm" : "pcf"; }
 
 void addReferenceShadows(CLI::App& command, ShadowChoice& choice) {
   choice = ShadowChoice::Traced;
@@ -58,6 +79,8 @@ const char* shadowName(ShadowChoice choice) {
     return "hard";
   case ShadowChoice::Field:
     return "field";
+  case ShadowChoice::Csm:
+    return "csm";
   case ShadowChoice::Traced:
     return "traced";
   }

@@ -12,6 +12,8 @@
 namespace brickfield {
 
 struct FieldFrame;
+class ShadowMaps;
+struct Temporal;
 
 /// Order in which objects are drawn. Both give the same picture to the last bit: reversed, later draws win ties.
 enum class DrawOrder : std::uint8_t { MeshesFirst, BoxesFirstAllReversed };
@@ -29,6 +31,9 @@ struct FrameContext {
   const FieldFrame* field = nullptr;              ///< the same
   const ShadowSettings* shadows = nullptr;        ///< null: none
   bool countsShadowReads = false;                 ///< a pixel, for a view or the counters
+  const Buffer* frameParams = nullptr;            ///< of the camera; bound when a pass begins
+  const ShadowMaps* shadowMaps = nullptr;         ///< null: nobody asks for them
+  const Temporal* temporal = nullptr;             ///< null: no temporal antialiasing
 };
 
 } // namespace brickfield

@@ -29,8 +29,14 @@ const char* resourceName(Resource resource) {
     return "shadow";
   case Resource::ShadowReads:
     return "shadow_reads";
+  case Resource::ShadowMap:
+    return "shadow_map";
+  case Resource::ShadowMoments:
+    return "shadow_moments";
   case Resource::Color:
     return "color";
+  case Resource::History:
+    return "history";
   case Resource::Picture:
     return "picture";
   case Resource::Counters:

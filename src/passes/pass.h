@@ -22,7 +22,10 @@ enum class Resource : std::uint8_t {
   BoxOverdraw,
   Shadow,      ///< visible shares of lights
   ShadowReads, ///< what they cost
+  ShadowMap,
+  ShadowMoments, ///< blurred, of the shadow maps
   Color,
+  History, ///< pictures and depths averaged over frames
   Picture,
   Counters,
   WorldTriangles,    ///< triangles of all drawn instances where they stand
@@ -33,7 +36,7 @@ enum class Resource : std::uint8_t {
   WorldFieldCoarse,  ///< unsigned, less the thickness
   WorldField,        ///< the volume that other passes read, and what it keeps from frame to frame
 };
-inline constexpr int kResourceCount = 22;
+inline constexpr int kResourceCount = 25;
 const char* resourceName(Resource resource);
 
 /// How the GPU touches it: decides the barrier after incoherent writes.

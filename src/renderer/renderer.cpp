@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <optional>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "core/error.h"
 #include "gpu/shader_library.h"
 #include "passes/debug/debug_view_pass.h"
 #include "passes/debug/field_view_pass.h"
+#include "passes/debug/shadow_map_view_pass.h"
+#include "passes/debug/taa_view_pass.h"
 #include "passes/geometry/deform_pass.h"
 #include "passes/geometry/mesh_pass.h"
 #include "passes/geometry/sdf_box_pass.h"
@@ -15,7 +19,15 @@
 #include "passes/light/environment_pass.h"
 #include "passes/light/field_shadow_pass.h"
 #include "passes/light/lighting_pass.h"
+#include "passes/light/map_shadow_pass.h"
+#include "passes/light/shadow_map_pass.h"
+#include "passes/light/shadow_maps.h"
+#include "passes/light/shadow_moments_pass.h"
+#include "passes/post/taa_pass.h"
+#include "passes/post/taa_sharpen_pass.h"
+#include "passes/post/temporal.h"
 #include "passes/post/tone_pass.h"
+#include "passes/view_params.h"
 #include "passes/world_field/exact_passes.h"
 #include "passes/world_field/hierarchy_refit_pass.h"
 #include "passes/world_field/rtsdf_jump_flood_pass.h"
@@ -53,6 +65,13 @@ void recordPass(RtsdfRaysPass& pass, const FrameContext& frame) {
 }
 void recordPass(FieldShadowPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(FieldViewPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(ShadowMapPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(ShadowMomentsPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(MapShadowPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(ShadowMapViewPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(TaaPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(TaaSharpenPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(TaaViewPass& pass, const FrameContext& frame) { pass.record(frame); }
 
 /// A pass whose shaders are compiled when a frame first has it.
 template <typename Pass>
@@ -77,7 +96,8 @@ constexpr bool isLate = requires(Pass pass, ShaderLibrary& shaders) {
 struct FrameShape {
   bool boxesFirst = false;
   bool hasExactField = false, hasRtsdfField = false, hasShadows = false;
-  bool showsPicture = false, showsDebugView = false, showsFieldView = false;
+  bool hasShadowMaps = false, hasShadowMoments = false, hasTaa = false;
+  bool showsPicture = false, showsDebugView = false, showsFieldView = false, showsShadowMaps = false, showsTaa = false;
 };
 
 } // namespace
@@ -108,6 +128,13 @@ struct Renderer::Parts {
   LatePass<RtsdfRaysPass> rtsdfRays;
   LatePass<FieldShadowPass> fieldShadow;
   LatePass<FieldViewPass> fieldView;
+  LatePass<ShadowMapPass> shadowMap;
+  LatePass<ShadowMomentsPass> shadowMoments;
+  LatePass<MapShadowPass> mapShadow;
+  LatePass<ShadowMapViewPass> shadowMapView;
+  LatePass<TaaPass> taa;
+  LatePass<TaaSharpenPass> taaSharpen;
+  LatePass<TaaViewPass> taaView;
 
   RendererSettings settings;
   const Scene* source = nullptr;
@@ -116,8 +143,12 @@ struct Renderer::Parts {
   VisibleBoxes visible;
   Buffer frameParams, counters;
   std::array<glm::vec3, 9> irradiance{};
-  SceneFields fieldOfNode;            ///< without the fields: which nodes are SDF objects
-  std::unique_ptr<FieldKeeper> field; ///< null until a frame reads the world field
+  SceneFields fieldOfNode;                ///< without the fields: which nodes are SDF objects
+  std::unique_ptr<FieldKeeper> field;     ///< null until a frame reads the world field
+  std::unique_ptr<ShadowMaps> shadowMaps; ///< null until a frame asks for them
+  std::vector<PosedLight> lights;
+  std::unique_ptr<Temporal> temporal; ///< null: no temporal antialiasing
+  View previousView;                  ///< of the last frame, where temporal has a history
   bool isFieldInFrame = false;
   Pose pose;
   View view;
@@ -127,6 +158,9 @@ struct Renderer::Parts {
   shared::FrameParams fillParams() const;
   bool readsField() const;
   const FieldFrame& prepareField();
+  void prepareShadowMaps(const shared::FrameParams& params);
+  void prepareTemporal();
+  void keepForNextFrame();
 
   template <typename Take>
   static void listPasses(const FrameShape& shape, const Take& take);
@@ -135,11 +169,12 @@ struct Renderer::Parts {
 namespace {
 
 std::vector<ResourceUse> providedByHost() {
-  return {
-      {Resource::FrameParams, Access::Upload},     {Resource::MeshVertices, Access::Upload},
-      {Resource::MeshDraws, Access::Upload},       {Resource::SdfScene, Access::Upload},
-      {Resource::Environment, Access::ImageStore}, {Resource::Counters, Access::Upload},
-      {Resource::Shadow, Access::Upload},          {Resource::ShadowReads, Access::Upload}}; // unused without shadows
+  // The last three are read by nobody where there are no shadows, or no filter wants them.
+  return {{Resource::FrameParams, Access::Upload},     {Resource::MeshVertices, Access::Upload},
+          {Resource::MeshDraws, Access::Upload},       {Resource::SdfScene, Access::Upload},
+          {Resource::Environment, Access::ImageStore}, {Resource::Counters, Access::Upload},
+          {Resource::Shadow, Access::Upload},          {Resource::ShadowReads, Access::Upload},
+          {Resource::ShadowMoments, Access::Upload}};
 }
 
 } // namespace
@@ -170,6 +205,31 @@ const FieldFrame& Renderer::Parts::prepareField() {
   return field->prepare(pose, view, settings.fieldSlice);
 }
 
+void Renderer::Parts::prepareShadowMaps(const shared::FrameParams& params) {
+  if (!shadowMaps) shadowMaps = std::make_unique<ShadowMaps>(settings.shadowMaps);
+  shadowMaps->prepare(lights, view, pose.boundsWorld, params, scene->sdfInstanceCount());
+}
+
+// A jitter of its own for each frame; what the frame before left, as long as pictures are of one size.
+void Renderer::Parts::prepareTemporal() {
+  if (!settings.taa.on) {
+    temporal.reset();
+    return;
+  }
+  if (!temporal) temporal = std::make_unique<Temporal>(*targets);
+  temporal->sharpness = settings.taa.sharpness;
+  temporal->table.prepare(*scene);
+  view.jitterNdc = 2.0f * taaJitter(temporal->frame) / glm::vec2(view.sizePixels);
+}
+
+void Renderer::Parts::keepForNextFrame() {
+  if (!temporal) return;
+  temporal->table.keep(*scene);
+  temporal->hasHistory = true;
+  ++temporal->frame;
+  previousView = view;
+}
+
 // The frame on one screen; take is handed pointers to the members, so that names need no renderer.
 template <typename Take>
 void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
@@ -194,26 +254,41 @@ void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
     take(&Parts::depthCopy); // ends the rays of SDF objects behind meshes
     take(&Parts::sdfBox);
   }
+  if (shape.hasShadowMaps) take(&Parts::shadowMap);
+  if (shape.hasShadowMoments) take(&Parts::shadowMoments);
+  if (shape.hasShadowMaps) take(&Parts::mapShadow);
   if (shape.hasShadows) take(&Parts::fieldShadow);
   take(&Parts::lighting); // also under a debug view: layers are whole whatever the picture shows
+  if (shape.hasTaa) {
+    take(&Parts::taa);
+    take(&Parts::taaSharpen);
+  }
   if (shape.showsPicture) take(&Parts::tone);
   if (shape.showsDebugView) {
     take(&Parts::boxOverdraw);
     take(&Parts::debugView);
   }
   if (shape.showsFieldView) take(&Parts::fieldView);
+  if (shape.showsShadowMaps) take(&Parts::shadowMapView);
+  if (shape.showsTaa) take(&Parts::taaView);
 }
 
 std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
   const DebugView* shown = findView(settings.view);
-  const bool readsField = shown && shown->readsField;
+  const bool readsField = shown && shown->readsField, readsMaps = shown && shown->readsShadowMaps;
+  const bool readsTemporal = shown && shown->readsTemporal;
   const FrameShape shape{settings.drawOrder == DrawOrder::BoxesFirstAllReversed,
                          context.field && context.field->exact,
                          context.field && context.field->rtsdf,
-                         context.shadows != nullptr,
+                         context.shadows && context.shadows->method == ShadowMethod::Field,
+                         context.shadowMaps != nullptr,
+                         context.shadowMaps && settings.shadowMaps.filter == ShadowFilter::Evsm,
+                         context.temporal != nullptr,
                          !shown,
-                         shown && !readsField,
-                         readsField};
+                         shown && !readsField && !readsMaps && !readsTemporal,
+                         readsField,
+                         readsMaps,
+                         readsTemporal};
   std::vector<PlannedPass> passes;
   listPasses(shape, [&](auto member) {
     auto& pass = this->*member;
@@ -226,13 +301,11 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
 
 shared::FrameParams Renderer::Parts::fillParams() const {
   shared::FrameParams params{};
-  params.clipFromEye = glm::mat4(clipFromEye(view));
-  params.worldFromView = view.worldFromView;
-  params.eyeWorld = glm::vec4(view.eyeWorld, view.nearDistance);
-  params.projection = {view.clipFromView[0][0], view.clipFromView[1][1], view.orthographic ? 1.0f : 0.0f,
-                       std::exp2(settings.exposureEv)};
+  setViewParams(params, view);
+  params.projection.w = std::exp2(settings.exposureEv);
   const DebugView* shown = findView(settings.view);
-  params.size = {view.sizePixels, scene->lightCount(), shown ? shown->number : shared::DEBUG_VIEW_NONE};
+  params.size.z = scene->lightCount();
+  params.size.w = shown ? shown->number : shared::DEBUG_VIEW_NONE;
   params.counts = {scene->sdfInstanceCount(), static_cast<std::uint32_t>(settings.forcedLevel + 1),
                    settings.maxTraceSteps, static_cast<std::uint32_t>(environment.radiance().levels())};
   if (shown) params.debugRange = {0, shown->redAt, 0, 0};
@@ -240,6 +313,13 @@ shared::FrameParams Renderer::Parts::fillParams() const {
     const float radius = 0.5f * glm::length(pose.boundsWorld.extent());
     const float toCenter = glm::distance(view.eyeWorld, pose.boundsWorld.center());
     params.debugRange = {std::max(0.0f, toCenter - radius), toCenter + radius, 0, 0};
+  }
+  if (temporal) {
+    const View& before = temporal->hasHistory ? previousView : view;
+    View still = before;
+    still.jitterNdc = glm::vec2(0);
+    const glm::dvec3 moved = glm::dvec3(view.eyeWorld) - glm::dvec3(before.eyeWorld);
+    params.previousClipFromEye = glm::mat4(glm::translate(clipFromEye(still), moved));
   }
   if (isFieldInFrame) params.eyeAnchored = glm::vec4(glm::dvec3(view.eyeWorld) - field->anchorWorld(), 0);
   for (std::size_t i = 0; i < irradiance.size(); ++i) params.irradiance[i] = glm::vec4(irradiance[i], 0);
@@ -253,6 +333,7 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 void Renderer::setScene(const Scene& scene, const SceneFields& fields) {
   parts_->field.reset();
   parts_->isFieldInFrame = false;
+  parts_->temporal.reset();
   parts_->scene.reset();
   parts_->scene = std::make_unique<ResidentScene>(scene, fields);
   parts_->source = &scene;
@@ -273,6 +354,7 @@ void Renderer::setLighting(const Lighting& lighting) {
   parts_->scene->setLighting(lighting);
   parts_->environment.prepare(lighting.environment);
   parts_->irradiance = irradianceHarmonics(lighting.environment);
+  parts_->lights = lighting.lights;
   parts_->isLit = true;
 }
 
@@ -282,6 +364,7 @@ void Renderer::setSettings(const RendererSettings& settings) {
     parts_->field.reset();
     parts_->isFieldInFrame = false;
   }
+  if (!(settings.shadowMaps == parts_->settings.shadowMaps)) parts_->shadowMaps.reset();
   parts_->settings = settings;
 }
 
@@ -289,13 +372,17 @@ void Renderer::render(const View& view) {
   Parts& parts = *parts_;
   if (!parts.scene || !parts.isPosed || !parts.isLit) throw Failure("renderer: scene, pose and lighting must be set");
   if (!parts.targets || parts.targets->size != view.sizePixels) {
+    parts.temporal.reset();
     parts.targets.reset();
     parts.targets = std::make_unique<FrameTargets>(view.sizePixels);
   }
   parts.view = view;
+  parts.prepareTemporal();
   parts.isFieldInFrame = parts.readsField();
   const FieldFrame* field = parts.isFieldInFrame ? &parts.prepareField() : nullptr;
-  parts.frameParams.uploadValue(parts.fillParams());
+  const shared::FrameParams params = parts.fillParams();
+  parts.frameParams.uploadValue(params);
+  if (parts.settings.shadows.method == ShadowMethod::Maps) parts.prepareShadowMaps(params);
   parts.frameParams.bindUniform(shared::kFrameUniformBinding);
   parts.counters.clear(0);
 
@@ -310,7 +397,10 @@ void Renderer::render(const View& view) {
                              field ? &parts.field->triangles() : nullptr,
                              field,
                              parts.settings.shadows.method != ShadowMethod::None ? &parts.settings.shadows : nullptr,
-                             parts.settings.view == "shadow-reads"};
+                             parts.settings.view == "shadow-reads",
+                             &parts.frameParams,
+                             parts.settings.shadows.method == ShadowMethod::Maps ? parts.shadowMaps.get() : nullptr,
+                             parts.temporal.get()};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDisable(GL_BLEND);
   glEnable(GL_FRAMEBUFFER_SRGB); // albedo is stored as sRGB; the other targets are linear and unaffected
@@ -323,6 +413,7 @@ void Renderer::render(const View& view) {
   }
   if (field) parts.field->settle();
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  parts.keepForNextFrame();
 }
 
 FrameStats Renderer::stats() {
@@ -334,7 +425,10 @@ FrameStats Renderer::stats() {
   stats.counters = {counts[shared::COUNTER_FRAGMENTS],      counts[shared::COUNTER_HITS],
                     counts[shared::COUNTER_STEPS],          counts[shared::COUNTER_BRICK_READS],
                     counts[shared::COUNTER_PROMISE_BROKEN], counts[shared::COUNTER_OUT_OF_STEPS],
-                    counts[shared::COUNTER_SHADOW_READS]};
+                    counts[shared::COUNTER_SHADOW_READS],   counts[shared::COUNTER_MAP_FRAGMENTS],
+                    counts[shared::COUNTER_MAP_STEPS]};
+  if (parts.settings.shadows.method == ShadowMethod::Maps && parts.shadowMaps)
+    stats.shadowMapLayers = static_cast<std::uint32_t>(parts.shadowMaps->layerCount());
   stats.sdfInstances = parts.scene->sdfInstanceCount();
   if (stats.sdfInstances > 0) {
     const std::vector<shared::BoxCommand> commands = parts.visible.commands().read<shared::BoxCommand>();
@@ -343,10 +437,14 @@ FrameStats Renderer::stats() {
   }
   stats.meshDraws = parts.scene->meshDrawCount();
   stats.bricks = parts.scene->atlas().brickCount();
-  stats.bytes = {parts.scene->atlas().bytes(), parts.scene->meshes().bytes(),
+  stats.bytes = {parts.scene->atlas().bytes(),
+                 parts.scene->meshes().bytes(),
                  parts.scene->materials().bytes() + parts.environment.radiance().bytes() +
                      parts.environment.brdf().bytes(),
-                 parts.scene->tableBytes(), parts.targets->bytes()};
+                 parts.scene->tableBytes(),
+                 parts.targets->bytes(),
+                 parts.shadowMaps ? parts.shadowMaps->bytes() : 0,
+                 parts.temporal ? parts.temporal->bytes() : 0};
   stats.field = fieldStats();
   return stats;
 }
@@ -367,7 +465,7 @@ FieldPicture Renderer::fieldPicture() const {
 
 std::vector<std::string> framePassNames() {
   std::vector<std::string> names;
-  Renderer::Parts::listPasses({false, true, true, true, true, true, true},
+  Renderer::Parts::listPasses({false, true, true, true, true, true, true, true, true, true, true, true},
                               [&]<typename Pass>(Pass Renderer::Parts::*) { names.push_back(Pass::declare().name); });
   return names;
 }
@@ -388,6 +486,32 @@ std::vector<std::uint32_t> Renderer::readShadowReads() const {
 std::vector<std::uint8_t> Renderer::readPicture() const {
   if (!parts_->targets) throw Failure("renderer: no frame was rendered");
   return readFramePicture(*parts_->targets);
+}
+
+std::vector<glm::vec2> Renderer::readMotion() const {
+  if (!parts_->temporal) throw Failure("renderer: the frame had no motion vectors");
+  const Texture& motion = parts_->temporal->motion;
+  const std::vector<float> stored = motion.readFloats();
+  const auto width = static_cast<std::size_t>(motion.width()), height = static_cast<std::size_t>(motion.height());
+  std::vector<glm::vec2> moved(width * height);
+  for (std::size_t y = 0; y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x) {
+      const float* texel = &stored[4 * ((height - 1 - y) * width + x)];
+      moved[y * width + x] = {texel[0], -texel[1]};
+    }
+  return moved;
+}
+
+std::vector<float> Renderer::readShadowMap(int layer) const {
+  if (layer < 0 || !parts_->shadowMaps || layer >= parts_->shadowMaps->layerCount())
+    throw Failure("renderer: no frame has made this shadow map");
+  const Texture& depths = parts_->shadowMaps->depths();
+  return depths.read<float>(0, {0, 0, layer}, {depths.width(), depths.height(), 1});
+}
+
+const std::vector<ShadowView>& Renderer::shadowViews() const {
+  static const std::vector<ShadowView> kNone;
+  return parts_->shadowMaps ? parts_->shadowMaps->views() : kNone;
 }
 
 std::vector<std::string> Renderer::reloadShaders() { return parts_->shaders.reloadChanged(); }

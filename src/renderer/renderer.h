@@ -25,6 +25,8 @@ struct FrameCounters {
   std::uint32_t promiseBroken = 0; ///< depths in front of the box face: must be 0
   std::uint32_t outOfSteps = 0;    ///< rays that ran out of steps
   std::uint32_t shadowReads = 0;   ///< of the world field, for shadows
+  std::uint32_t mapFragments = 0;  ///< box fragments in shadow maps
+  std::uint32_t mapSteps = 0;
 };
 
 /// What the GPU holds, by kind; as asked for, without what a driver adds.
@@ -34,6 +36,8 @@ struct GpuBytes {
   std::size_t textures = 0; ///< of materials and of the environment
   std::size_t tables = 0;   ///< what a pose renews: draws, instances, joints, lights
   std::size_t targets = 0;
+  std::size_t shadowMaps = 0;
+  std::size_t temporal = 0; ///< motion vectors and histories
 };
 
 struct FrameStats {
@@ -44,6 +48,7 @@ struct FrameStats {
   std::uint32_t sdfInside = 0;  ///< of them, with the near plane through the box
   std::uint32_t meshDraws = 0;
   std::uint32_t bricks = 0;
+  std::uint32_t shadowMapLayers = 0;
   GpuBytes bytes;
   FieldStats field;
 };
@@ -87,6 +92,16 @@ public:
   FieldVolumes readWorldField() const;
   /// Where the plane of the field views lay in that frame.
   FieldPicture fieldPicture() const;
+
+  /// Motion vectors of the last frame, which had temporal antialiasing: pixels to the right and downwards from where a
+  /// surface was in the frame before; rows from the top.
+  /// error Failure: it had none
+  std::vector<glm::vec2> readMotion() const;
+  /// Depths of a layer of the last frame's shadow maps, reverse Z; rows from the bottom, as the views count.
+  /// error Failure: there is no such layer
+  std::vector<float> readShadowMap(int layer) const;
+  /// The views that they were drawn from, a layer each.
+  const std::vector<ShadowView>& shadowViews() const;
 
   /// Compiles changed shader files anew; a line for each program that changed.
   std::vector<std::string> reloadShaders();

@@ -53,7 +53,7 @@ const char* fieldMethodName(FieldMethod method) {
 }
 
 const std::vector<DebugView>& debugViews() {
-  constexpr float kStepsRange = 64, kOverdrawRange = 16, kReadsRange = 128;
+  constexpr float kStepsRange = 64, kOverdrawRange = 16, kReadsRange = 128, kMotionRange = 16, kTaaRange = 64;
   static const std::vector<DebugView> views{
       {"depth", "distance from the eye, near is bright", shared::DEBUG_VIEW_DEPTH},
       {"normal", "shading normal in world space, -1..1 as 0..1", shared::DEBUG_VIEW_NORMAL},
@@ -78,6 +78,15 @@ const std::vector<DebugView>& debugViews() {
        shared::DEBUG_VIEW_SHADOW, 0, false, false, false, true},
       {"shadow-reads", fmt::format("distances read for the shadows at each pixel, blue 0 to red {}", kReadsRange),
        shared::DEBUG_VIEW_SHADOW_READS, kReadsRange, false, false, false, true},
+      {"shadow-map", "the shadow maps of the first light side by side, near to the light bright",
+       shared::DEBUG_VIEW_SHADOW_MAP, 0, false, false, false, false, true},
+      {"shadow-cascade", "a colour for the shadow map that answers, in fields of eight of its texels; grey: none",
+       shared::DEBUG_VIEW_SHADOW_CASCADE, 0, false, false, false, false, true},
+      {"motion",
+       fmt::format("motion vectors: red to the right, green upwards, full at {} pixels a frame", kMotionRange),
+       shared::DEBUG_VIEW_MOTION, kMotionRange, false, false, false, false, false, true},
+      {"taa-frames", fmt::format("frames in each pixel's average, blue 0 to red {}", kTaaRange),
+       shared::DEBUG_VIEW_TAA_FRAMES, kTaaRange, false, false, false, false, false, true},
   };
   return views;
 }
@@ -88,22 +97,45 @@ const DebugView* findView(const std::string& name) {
   return nullptr;
 }
 
+namespace {
+
+void checkShadows(const ShadowSettings& shadows) {
+  if (shadows.penumbraRays < 1 || shadows.penumbraRays > 64)
+    throw BadInput("shadows", fmt::format("{} rays", shadows.penumbraRays), "is not 1 to 64");
+  if (!(shadows.softness >= 0 && shadows.softness <= 4))
+    throw BadInput("shadows", fmt::format("softness {}", shadows.softness), "is not 0 to 4");
+  if (!(shadows.mostStep > 0) || !std::isfinite(shadows.mostStep))
+    throw BadInput("shadows", fmt::format("step {}", shadows.mostStep), "is not above 0");
+}
+
+void checkShadowView(const DebugView& view, const RendererSettings& settings) {
+  const ShadowMethod method = settings.shadows.method;
+  if (view.needsShadows && method == ShadowMethod::None)
+    throw BadInput("view", settings.view, "shows shadows, of which there are none; --shadows field makes some");
+  if (view.number == shared::DEBUG_VIEW_SHADOW_READS && method != ShadowMethod::Field)
+    throw BadInput("view", settings.view, "shows what --shadows field reads");
+  if (view.readsShadowMaps && method != ShadowMethod::Maps)
+    throw BadInput("view", settings.view, "shows shadow maps, which --shadows csm makes");
+  if (view.readsTemporal && !settings.taa.on) throw BadInput("view", settings.view, "shows what --taa on keeps");
+}
+
+} // namespace
+
 void checkSettings(const RendererSettings& settings) {
   checkShape(settings.worldField.shape);
   checkRtsdfSettings(settings.worldField.rtsdf);
   if (settings.shadows.method == ShadowMethod::Field && settings.worldField.method == FieldMethod::Off)
     throw BadInput("shadows", "field", "needs a world field, which is off");
-  if (settings.shadows.penumbraRays < 1 || settings.shadows.penumbraRays > 64)
-    throw BadInput("shadows", fmt::format("{} rays", settings.shadows.penumbraRays), "is not 1 to 64");
-  if (!(settings.shadows.softness >= 0 && settings.shadows.softness <= 4))
-    throw BadInput("shadows", fmt::format("softness {}", settings.shadows.softness), "is not 0 to 4");
-  if (!(settings.shadows.mostStep > 0) || !std::isfinite(settings.shadows.mostStep))
-    throw BadInput("shadows", fmt::format("step {}", settings.shadows.mostStep), "is not above 0");
+  checkShadows(settings.shadows);
+  if (settings.shadowMaps.size < kLeastShadowTexels || settings.shadowMaps.size > kMostShadowTexels)
+    throw BadInput("shadow maps", fmt::format("size {}", settings.shadowMaps.size),
+                   fmt::format("is not {} to {}", kLeastShadowTexels, kMostShadowTexels));
+  if (!(settings.taa.sharpness >= 0 && settings.taa.sharpness <= 1))
+    throw BadInput("taa", fmt::format("sharpness {}", settings.taa.sharpness), "is not in [0, 1]");
   if (settings.view.empty()) return;
   const DebugView* view = findView(settings.view);
   if (!view) throw BadInput("view", settings.view, "no such view");
-  if (view->needsShadows && settings.shadows.method == ShadowMethod::None)
-    throw BadInput("view", settings.view, "shows shadows, of which there are none; --shadows field makes some");
+  checkShadowView(*view, settings);
   if (view->readsField) checkFieldView(*view, settings);
 }
 

@@ -8,7 +8,9 @@
 
 #include "field/field_windows.h"
 #include "passes/frame_context.h"
+#include "passes/light/shadow_maps.h"
 #include "passes/light/shadow_settings.h"
+#include "passes/post/temporal.h"
 #include "passes/world_field/rtsdf_settings.h"
 
 namespace brickfield {
@@ -43,6 +45,8 @@ struct RendererSettings {
   bool countersOn = false; ///< counts fragments, steps and brick reads; slower
   std::string view;        ///< one of debugViews(); empty: the lit picture
   ShadowSettings shadows;  ///< Field makes a world field in each frame
+  ShadowMapSettings shadowMaps; ///< where the method is of maps
+  TaaSettings taa;
   FieldSettings worldField;
   FieldSlice fieldSlice;
 };
@@ -57,6 +61,8 @@ struct DebugView {
   bool isSlice = false;    ///< that cuts it by FieldSlice
   bool isExactOnly = false;
   bool needsShadows = false; ///< shows them or what they cost
+  bool readsShadowMaps = false;
+  bool readsTemporal = false;
 };
 const std::vector<DebugView>& debugViews();
 /// Null: no such view, or none.

@@ -92,6 +92,7 @@ shared::MaterialRow MaterialTable::addMaterial(const Scene& scene, const Materia
   }
   slots_.push_back(slots);
   doubleSided_.push_back(material.doubleSided);
+  masked_.push_back(cutoff >= 0);
   return row;
 }
 

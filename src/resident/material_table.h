@@ -21,6 +21,8 @@ public:
 
   static int rowOf(int material) { return material + 1; }
   bool isDoubleSided(int material) const { return doubleSided_[static_cast<std::size_t>(rowOf(material))]; }
+  /// Whether its alpha cuts parts away.
+  bool isMasked(int material) const { return masked_[static_cast<std::size_t>(rowOf(material))]; }
 
   void bindRows() const;
   /// Textures and samplers of one material to the five units from kMaterialTextureUnit on.
@@ -40,7 +42,7 @@ private:
   std::map<std::pair<int, bool>, int> textureOfImage_;
   std::map<std::array<int, 4>, int> samplerOfOptions_;
   std::vector<std::array<Slot, shared::MATERIAL_TEXTURES>> slots_; // a row each
-  std::vector<bool> doubleSided_;
+  std::vector<bool> doubleSided_, masked_;
   Texture white_;
   Buffer rows_;
 };

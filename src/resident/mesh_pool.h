@@ -40,6 +40,8 @@ public:
   /// Room for this many deformed vertices behind the scene's own; returns the first one's number.
   std::uint32_t reserveDeformed(std::uint32_t vertexCount);
 
+  std::uint32_t sceneVertexCount() const { return sceneVertices_; }
+
   const Buffer& vertices() const { return vertices_; }
   const Buffer& influences() const { return influences_; }
   const Buffer& morphs() const { return morphs_; }

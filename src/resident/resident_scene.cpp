@@ -15,6 +15,7 @@ struct ResidentScene::PendingDraw {
   std::uint32_t baseVertex;
   shared::MeshDraw row;
   bool mirrored;
+  std::uint32_t instance = 0, primitiveIndex = 0;
   auto state() const { return std::tie(primitive.material, mirrored, primitive.firstIndex, baseVertex); }
 };
 
@@ -105,7 +106,7 @@ void ResidentScene::addMeshDraws(const Pose& pose, std::uint32_t number, std::ve
   const PosedInstance& instance = pose.instances[number];
   for (std::uint32_t i = 0; i < meshes_.primitiveCount(instance.mesh); ++i) {
     const PooledPrimitive& primitive = meshes_.primitive(instance.mesh, i);
-    PendingDraw draw{primitive, primitive.firstVertex, {}, mirrorSign(instance.worldFromObject) < 0};
+    PendingDraw draw{primitive, primitive.firstVertex, {}, mirrorSign(instance.worldFromObject) < 0, number, i};
     const bool morphed =
         primitive.morphTargets > 0 &&
         std::any_of(instance.morphWeights.begin(), instance.morphWeights.end(), [](float w) { return w != 0; });
@@ -129,6 +130,7 @@ void ResidentScene::finishDraws(std::vector<PendingDraw>& pending) {
                    [](const PendingDraw& a, const PendingDraw& b) { return a.state() < b.state(); });
 
   batches_.clear();
+  meshPlaces_.clear();
   std::vector<shared::MeshDraw> rows;
   for (const PendingDraw& draw : pending) {
     if (batches_.empty() ||
@@ -137,6 +139,8 @@ void ResidentScene::finishDraws(std::vector<PendingDraw>& pending) {
       batches_.push_back({draw.primitive, draw.baseVertex, static_cast<std::uint32_t>(rows.size()), 0, draw.mirrored});
     ++batches_.back().drawCount;
     rows.push_back(draw.row);
+    meshPlaces_.push_back({draw.instance, draw.primitiveIndex, draw.baseVertex, draw.primitive.firstVertex,
+                           draw.primitive.vertexCount, draw.row.worldFromObject});
   }
   meshDrawCount_ = static_cast<std::uint32_t>(rows.size());
   renew(meshDraws_, "mesh_draws", rows);
@@ -171,6 +175,7 @@ void ResidentScene::setPose(const Scene& scene, const Pose& pose) {
   deformJobs_.clear();
   sdfRows_.clear();
   lightRows_.clear();
+  sdfPlaces_.clear();
   joints_.clear();
   weights_.clear();
   deformedVertices_ = 0;
@@ -183,7 +188,9 @@ void ResidentScene::setPose(const Scene& scene, const Pose& pose) {
     if (bricks < 0) continue;
     const std::optional<shared::SdfInstance> row = sdfInstanceOf(
         instance, atlas_.field(fieldIds_[static_cast<std::size_t>(bricks)]), isDoubleSidedNode(scene, instance.mesh));
-    if (row) (field >= 0 ? sdfRows_ : lightRows_).push_back(*row);
+    if (!row) continue;
+    (field >= 0 ? sdfRows_ : lightRows_).push_back(*row);
+    if (field >= 0) sdfPlaces_.push_back(i);
   }
   finishDraws(pending);
   uploadInstances(scene.nodes.size());

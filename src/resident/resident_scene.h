@@ -36,6 +36,16 @@ struct DeformJob {
   shared::DeformParams params;
 };
 
+/// Where a draw stands, in the order of the draws' rows.
+struct MeshPlace {
+  std::uint32_t instance = 0; ///< number in Pose::instances
+  std::uint32_t primitive = 0;
+  std::uint32_t baseVertex = 0;  ///< of what is drawn: deformed or not
+  std::uint32_t firstVertex = 0; ///< undeformed
+  std::uint32_t vertexCount = 0;
+  glm::mat4 worldFromObject{1};
+};
+
 class ResidentScene {
 public:
   ResidentScene(const Scene& scene, const SceneFields& fields);
@@ -55,6 +65,9 @@ public:
   const std::vector<shared::SdfInstance>& sdfInstances() const { return sdfRows_; }
   std::uint32_t meshDrawCount() const { return meshDrawCount_; }
   std::uint32_t lightCount() const { return lightCount_; }
+  const std::vector<MeshPlace>& meshPlaces() const { return meshPlaces_; }
+  /// Numbers in Pose::instances, in the order of sdfInstances().
+  const std::vector<std::uint32_t>& sdfPlaces() const { return sdfPlaces_; }
   const Buffer& drawIndices() const { return drawIndices_; }
 
   void bindMeshDraws() const { meshDraws_.bindStorage(shared::kMeshDrawBinding); }
@@ -82,6 +95,8 @@ private:
   std::vector<MeshBatch> batches_;
   std::vector<DeformJob> deformJobs_;
   std::vector<shared::SdfInstance> sdfRows_, lightRows_;
+  std::vector<MeshPlace> meshPlaces_;
+  std::vector<std::uint32_t> sdfPlaces_;
   std::vector<glm::mat4> joints_;
   std::vector<float> weights_;
   std::uint32_t deformedVertices_ = 0;

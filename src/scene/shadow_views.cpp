@@ -53,9 +53,7 @@ Sphere sphereOfSlice(const View& camera, double nearDepth, double farDepth) {
 }
 
 // A square map with room for the filters around what must be in it.
-double withMargin(double halfExtent, int texels) {
-  return halfExtent * texels / (texels - 2.0 * kShadowMarginTexels);
-}
+double withMargin(double halfExtent, int texels) { return halfExtent * texels / (texels - 2.0 * kShadowMarginTexels); }
 
 std::vector<ShadowView> makeCascades(glm::vec3 directionWorld, const View& camera, const Box& bounds, int texels) {
   const glm::dvec3 direction(directionWorld);

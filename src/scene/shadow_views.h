@@ -1,6 +1,6 @@
-// The views that shadow maps are drawn from: cascades for suns, one view for spots, six for lights that shine all round.
-// Cascades after Engel (2006, "Cascaded Shadow Maps"): parts of the camera's depth, each in a square of its own. They are
-// held still: a square's size depends on the lens alone, and it moves by whole texels.
+// The views that shadow maps are drawn from: cascades for suns, one view for spots, six for lights that shine all
+// round. Cascades after Engel (2006, "Cascaded Shadow Maps"): parts of the camera's depth, each in a square of its own.
+// They are held still: a square's size depends on the lens alone, and it moves by whole texels.
 #pragma once
 
 #include <vector>
@@ -21,13 +21,14 @@ enum class ShadowLayout { Cascades, Spot, Cube };
 ShadowLayout shadowLayoutOf(const Light& light);
 
 struct ShadowView {
-  View view;              ///< square; a sun's is parallel, its near plane above and its far plane below all of the scene
-  float farDistance = 0;  ///< metres from the eye along the view to the farthest of the scene
-  float texelSpan = 0;    ///< metres a texel, of perspective views at one metre from the eye
+  View view;             ///< square; a sun's is parallel, its near plane above and its far plane below all of the scene
+  float farDistance = 0; ///< metres from the eye along the view to the farthest of the scene
+  float texelSpan = 0;   ///< metres a texel, of perspective views at one metre from the eye
 };
 
-/// Where the camera's depth is cut: 0, then the ends of the cascades. Between the nearest and the farthest of the scene,
-/// both rounded outwards to powers of the fourth root of two so that the cuts stay while the camera moves a little.
+/// Where the camera's depth is cut: 0, then the ends of the cascades. Between the nearest and the farthest of the
+/// scene, both rounded outwards to powers of the fourth root of two so that the cuts stay while the camera moves a
+/// little.
 std::vector<double> cascadeEnds(const View& camera, const Box& boundsWorld);
 
 /// boundsWorld  of all casters and receivers; not empty

@@ -31,9 +31,12 @@ TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
   RendererSettings settings;
   settings.worldField.shape = {1, 16, 0, false};
   settings.worldField.rtsdf.coarseSize = settings.worldField.rtsdf.fineSize = 16;
-  for (const char* shown : {"", "steps", "field", "field-surface"}) {
+  settings.shadowMaps = {ShadowFilter::Evsm, kLeastShadowTexels};
+  for (const char* shown : {"", "steps", "field", "field-surface", "shadow-map", "motion"}) {
     settings.view = shown;
     settings.shadows.method = settings.view.empty() ? ShadowMethod::Field : ShadowMethod::None;
+    if (settings.view == "shadow-map") settings.shadows.method = ShadowMethod::Maps;
+    settings.taa.on = settings.view == "motion";
     settings.worldField.method = settings.view == "field" ? FieldMethod::Exact : FieldMethod::Rtsdf;
     renderer->setSettings(settings);
     renderer->render(view);

@@ -1,14 +1,22 @@
 // Batches are sorted by material, so that state changes are few; a batch is one instanced draw.
 #include "passes/geometry/mesh_pass.h"
 
+#include "passes/post/temporal.h"
+
 namespace brickfield {
 
+namespace {
+ProgramSource meshSource(const char* label, std::map<std::string, std::string> defines) {
+  return {label,
+          {{GL_VERTEX_SHADER, "passes/mesh.vert.glsl"}, {GL_FRAGMENT_SHADER, "passes/mesh.frag.glsl"}},
+          std::move(defines),
+          {}};
+}
+} // namespace
+
 MeshPass::MeshPass(ShaderLibrary& shaders)
-    : program_(
-          shaders.load({"mesh",
-                        {{GL_VERTEX_SHADER, "passes/mesh.vert.glsl"}, {GL_FRAGMENT_SHADER, "passes/mesh.frag.glsl"}},
-                        {},
-                        {}})) {}
+    : program_(shaders.load(meshSource("mesh", {}))),
+      motionProgram_(shaders.load(meshSource("mesh_motion", {{"MOTION_ON", "1"}}))) {}
 
 PassDeclaration MeshPass::declare() {
   return {"mesh",
@@ -22,12 +30,13 @@ void MeshPass::record(const FrameContext& context) {
   const std::vector<MeshBatch>& batches = context.scene.batches();
   if (batches.empty()) return;
   const bool reversed = context.drawOrder == DrawOrder::BoxesFirstAllReversed;
-  context.targets.gbuffer.bind();
+  (context.temporal ? context.temporal->gbuffer : context.targets.gbuffer).bind();
+  if (context.temporal) context.temporal->table.bindMeshes(context.scene);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glDepthFunc(reversed ? GL_GEQUAL : GL_GREATER);
   glCullFace(GL_BACK);
-  program_->use();
+  (context.temporal ? motionProgram_ : program_)->use();
   context.scene.meshes().vertexArray().bind();
   context.scene.bindMeshDraws();
   context.scene.materials().bindRows();

@@ -15,6 +15,7 @@ public:
 
 private:
   std::shared_ptr<Program> program_;
+  std::shared_ptr<Program> motionProgram_; ///< the same with motion vectors
 };
 
 /// Empties the G-buffer: far depth, no object.

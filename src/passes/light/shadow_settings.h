@@ -6,7 +6,7 @@
 namespace brickfield {
 
 /// Shadows of the lights.
-enum class ShadowMethod : std::uint8_t { None, Field };
+enum class ShadowMethod : std::uint8_t { None, Field, Maps };
 
 /// How the world field is asked:
 ///   Rays      a cone, then rays over the light where it is touched; our own

@@ -5,6 +5,7 @@
 #include "shared/frame_params.h"
 #include "shared/mesh_params.h"
 #include "shared/sdf_params.h"
+#include "shared/shadow_map_params.h"
 #include "shared/triangle_hierarchy_params.h"
 #include "shared/world_field_params.h"
 #include "shared/world_triangles_params.h"
@@ -50,9 +51,10 @@ layout(local_size_x = 1) in;
 layout(std430, binding = 0) writeonly buffer CopyBlock { FrameParams copy; };
 void main() { copy = frame; })");
   const Offsets members{
-      MEMBER(FrameParams, clipFromEye), MEMBER(FrameParams, worldFromView), MEMBER(FrameParams, eyeWorld),
-      MEMBER(FrameParams, projection),  MEMBER(FrameParams, size),          MEMBER(FrameParams, counts),
-      MEMBER(FrameParams, debugRange),  MEMBER(FrameParams, eyeAnchored),   ARRAY(FrameParams, irradiance)};
+      MEMBER(FrameParams, clipFromEye),         MEMBER(FrameParams, worldFromView), MEMBER(FrameParams, eyeWorld),
+      MEMBER(FrameParams, projection),          MEMBER(FrameParams, size),          MEMBER(FrameParams, counts),
+      MEMBER(FrameParams, debugRange),          MEMBER(FrameParams, eyeAnchored),   ARRAY(FrameParams, irradiance),
+      MEMBER(FrameParams, previousClipFromEye), MEMBER(FrameParams, jitter)};
   for (const bool storage : {false, true}) {
     const Program::BlockLayout layout = program->blockLayout(storage ? "CopyBlock" : "FrameBlock", storage);
     Offsets expected;
@@ -73,6 +75,8 @@ TEST_F(SharedStructs, RowsOfLightsAndMeshes) {
   expectRows("MaterialRow", "mesh_params.h", sizeof(shared::MaterialRow),
              {MEMBER(MaterialRow, baseColor), MEMBER(MaterialRow, emission), MEMBER(MaterialRow, factors),
               MEMBER(MaterialRow, flags), ARRAY(MaterialRow, textureFromUv)});
+  expectRows("MeshMotion", "mesh_params.h", sizeof(shared::MeshMotion),
+             {MEMBER(MeshMotion, previousWorldFromObject), MEMBER(MeshMotion, vertices)});
   expectRows("DeformParams", "mesh_params.h", sizeof(shared::DeformParams),
              {MEMBER(DeformParams, vertices), MEMBER(DeformParams, sources), MEMBER(DeformParams, weights)});
 }
@@ -81,6 +85,7 @@ TEST_F(SharedStructs, RowsOfSdfObjects) {
   expectRows("SdfInstance", "sdf_params.h", sizeof(shared::SdfInstance),
              {ARRAY(SdfInstance, gridFromWorld), ARRAY(SdfInstance, worldFromGrid), MEMBER(SdfInstance, boxMin),
               MEMBER(SdfInstance, boxMax), MEMBER(SdfInstance, ids)});
+  expectRows("SdfMotion", "sdf_params.h", sizeof(shared::SdfMotion), {ARRAY(SdfMotion, previousWorldFromGrid)});
   expectRows("SdfLevel", "sdf_params.h", sizeof(shared::SdfLevel),
              {MEMBER(SdfLevel, cells), MEMBER(SdfLevel, scale), MEMBER(SdfLevel, attributes)});
   expectRows("BoxCommand", "sdf_params.h", sizeof(shared::BoxCommand),
@@ -102,6 +107,13 @@ TEST_F(SharedStructs, RowsOfTheWorldField) {
   expectRows("GatherChunk", "world_triangles_params.h", sizeof(shared::GatherChunk),
              {MEMBER(GatherChunk, instance), MEMBER(GatherChunk, first), MEMBER(GatherChunk, count),
               MEMBER(GatherChunk, vertexOffset)});
+}
+
+TEST_F(SharedStructs, RowsOfShadowMaps) {
+  expectRows("ShadowMapLayer", "shadow_map_params.h", sizeof(shared::ShadowMapLayer),
+             {MEMBER(ShadowMapLayer, clipFromEye), MEMBER(ShadowMapLayer, eyeFromClip),
+              MEMBER(ShadowMapLayer, eyeWorld), MEMBER(ShadowMapLayer, depth)});
+  expectRows("ShadowMapLight", "shadow_map_params.h", sizeof(shared::ShadowMapLight), {MEMBER(ShadowMapLight, layers)});
 }
 
 TEST_F(SharedStructs, RowsOfTheTriangleHierarchy) {

@@ -24,15 +24,33 @@ ShadowChoice parse(AddFlag add, std::vector<std::string> arguments) {
   return choice;
 }
 
-TEST(ShadowChoice, RenderHasFieldAndNoneAndSaysSo) {
+TEST(ShadowChoice, RenderHasFieldCsmAndNoneAndSaysSo) {
   EXPECT_EQ(parse(addRenderShadows, {}), ShadowChoice::None);
+  EXPECT_EQ(parse(addRenderShadows, {"csm", "--shadows"}), ShadowChoice::Csm);
   EXPECT_EQ(parse(addRenderShadows, {"none", "--shadows"}), ShadowChoice::None);
   EXPECT_EQ(parse(addRenderShadows, {"field", "--shadows"}), ShadowChoice::Field);
-  for (const char* kind : {"csm", "csm+field"})
-    EXPECT_THAT(refusalOf([&] {
-                  parse(addRenderShadows, {kind, "--shadows"});
-                }),
-                AllOf(HasSubstr("--shadows: "), HasSubstr(kind), HasSubstr("not drawn"), HasSubstr("none")));
+  EXPECT_THAT(refusalOf([&] {
+                parse(addRenderShadows, {"csm+field", "--shadows"});
+              }),
+              AllOf(HasSubstr("--shadows: "), HasSubstr("csm+field"), HasSubstr("not drawn"), HasSubstr("none")));
+}
+
+TEST(ShadowChoice, MapsHaveAFilterAndASize) {
+  const auto mapsOf = [](std::vector<std::string> arguments) {
+    CLI::App app;
+    ShadowMapSettings settings;
+    addShadowMapOptions(app, settings);
+    app.parse(std::move(arguments));
+    return settings;
+  };
+  EXPECT_EQ(mapsOf({}), (ShadowMapSettings{ShadowFilter::Pcf, 2048}));
+  EXPECT_EQ(mapsOf({"512", "--shadow-size", "evsm", "--shadow-filter"}), (ShadowMapSettings{ShadowFilter::Evsm, 512}));
+  EXPECT_THAT(refusalOf([&] {
+                mapsOf({"vsm", "--shadow-filter"});
+              }),
+              AllOf(HasSubstr("--shadow-filter: "), HasSubstr("vsm"), HasSubstr("neither pcf nor evsm")));
+  for (const char* size : {"63", "8193", "-1", "many"})
+    EXPECT_THAT(refusalOf([&] { mapsOf({size, "--shadow-size"}); }), HasSubstr("--shadow-size")) << size;
 }
 
 TEST(ShadowChoice, ReferenceTracesUnlessToldNotTo) {

@@ -1,6 +1,8 @@
 // Where shadow maps are drawn from: what they cover, and that moving cameras leave their texels in place.
 #include "scene/shadow_views.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace brickfield {
@@ -41,7 +43,8 @@ TEST(ShadowViews, CascadesHoldTheirSlicesOfTheFrustum) {
         const double cosine = glm::dot(ray.directionWorld, -glm::vec3(camera.worldFromView[2]));
         const glm::dvec3 point = glm::dvec3(ray.originWorld) + (d / cosine) * glm::dvec3(ray.directionWorld);
         if (!kBounds.contains(glm::vec3(point))) continue;
-        const auto slice = std::upper_bound(ends.begin() + 1, ends.end() - 1, static_cast<double>(d)) - ends.begin() - 1;
+        const auto slice =
+            std::upper_bound(ends.begin() + 1, ends.end() - 1, static_cast<double>(d)) - ends.begin() - 1;
         const glm::dvec3 ndc = ndcOf(views[static_cast<std::size_t>(slice)], point);
         EXPECT_LE(std::max(std::abs(ndc.x), std::abs(ndc.y)), inner) << "depth " << d << " slice " << slice;
         EXPECT_GT(ndc.z, 0);
@@ -57,8 +60,8 @@ TEST(ShadowViews, CascadesGetFinerTowardsTheEye) {
   EXPECT_LT(views[0].texelSpan, 0.2f * views[3].texelSpan);
 }
 
-// Whole texels: where a fixed point lies within its texel does not depend on the camera. Single precision rounds eyes at
-// 40 m to 4e-6 m, a few thousandths of the finest texel here.
+// Whole texels: where a fixed point lies within its texel does not depend on the camera. Single precision rounds eyes
+// at 40 m to 4e-6 m, a few thousandths of the finest texel here.
 TEST(ShadowViews, TexelsStayInPlaceWhileTheCameraMoves) {
   const PosedLight sun = lightOf(LightKind::Sun);
   const auto first = makeShadowViews(sun, cameraAt({2, 3, 20}), kBounds, kTexels);

@@ -1,0 +1,42 @@
+// Where everything stood in the frame before, for motion vectors: transforms of meshes and SDF objects, and the
+// deformed vertices of what is skinned or morphed. Things are known again by their number in the pose and their
+// primitive.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "resident/resident_scene.h"
+#include "shared/mesh_params.h"
+#include "shared/sdf_params.h"
+
+namespace brickfield {
+
+class MotionTable {
+public:
+  MotionTable();
+
+  /// Rows for a frame's draws and SDF instances. What was not there before has not moved.
+  void prepare(const ResidentScene& scene);
+  /// Keeps this frame as the one before the next. After its last pass and a barrier for buffer copies.
+  void keep(const ResidentScene& scene);
+
+  /// For the vertex stage of meshes: rows, vertices of the frame before, vertices of this one.
+  void bindMeshes(const ResidentScene& scene) const;
+  /// For the fragment stage of boxes.
+  void bindSdfInstances() const { sdfMotions_.bindStorage(shared::kPassBufferBBinding); }
+  std::size_t bytes() const { return meshMotions_.bytes() + sdfMotions_.bytes() + vertices_.bytes(); }
+
+private:
+  struct Place {
+    glm::mat4 worldFromObject{1};
+    int firstDeformed = -1; ///< in vertices_; -1: not deformed
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Place> places_; // by number in the pose and primitive
+  std::map<std::uint32_t, shared::SdfMotion> sdfPlaces_;            // by number in the pose
+  Buffer meshMotions_, sdfMotions_, vertices_;
+};
+
+} // namespace brickfield
