@@ -8,6 +8,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = kOverdrawUnit) uniform sampler2D box_overdraw;
 layout(binding = kShadowUnit) uniform sampler2D shadow;
 layout(binding = kShadowReadsUnit) uniform usampler2D shadow_reads;
+layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 layout(binding = 0, rgba8) writeonly uniform image2D picture;
 
 float viewUnit(float value) { return (value - frame.debugRange.x) / max(frame.debugRange.y - frame.debugRange.x, 1e-6); }
@@ -43,6 +44,7 @@ void main() {
       break;
     }
     case DEBUG_VIEW_SHADOW_READS: shown = heat(viewUnit(float(texelFetch(shadow_reads, pixel, 0).r))); break;
+    case DEBUG_VIEW_AO: shown = vec3(texelFetch(occlusion, pixel, 0).r); break;
     default: break;
   }
   imageStore(picture, pixel, vec4(shown, 1.0));

@@ -10,9 +10,11 @@ layout(std430, binding = kLightBinding) readonly buffer LightBlock { LightRow li
 layout(binding = kEnvironmentUnit) uniform sampler2D environment_prefiltered;
 layout(binding = kEnvironmentBrdfUnit) uniform sampler2D environment_brdf;
 layout(binding = kShadowUnit) uniform sampler2D shadow;
+layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 layout(binding = 0, rgba16f) writeonly uniform image2D color;
 
 uniform int shadowedLights; // the first ones
+uniform bool isOccluded;
 
 // Irradiance that reaches a point facing the light, and the direction to it.
 vec3 lightAt(LightRow light, vec3 pointWorld, out vec3 toLight) {
@@ -84,7 +86,8 @@ void main() {
     vec3 pointWorld = frame.eyeWorld.xyz + (originEye + t * directionWorld);
     vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).xy);
     vec3 toViewer = -directionWorld;
-    radiance = texelFetch(emission, pixel, 0).rgb + environmentLight(surface, normal, toViewer, properties.b);
+    float open = properties.b * (isOccluded ? texelFetch(occlusion, pixel, 0).r : 1.0);
+    radiance = texelFetch(emission, pixel, 0).rgb + environmentLight(surface, normal, toViewer, open);
     vec4 visible = texelFetch(shadow, pixel, 0);
     for (int i = 0; i < int(frame.size.z); ++i) {
       float share = i < shadowedLights ? visible[i] : 1.0;

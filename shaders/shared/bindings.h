@@ -42,12 +42,7 @@ SHARED_CONST uint kFieldSphereBinding = 6;
 SHARED_CONST uint kFieldTileBinding = 7;
 SHARED_CONST uint kFieldShownListBinding = 0; // and the two after it: lists of tiles that a view shows
 
-// Texture units
-SHARED_CONST uint kDistanceR8Unit = 24; // of bricks; beside the G-buffer's and the world field's
-SHARED_CONST uint kDistanceR16Unit = 25;
-SHARED_CONST uint kBrickBaseColorUnit = 26;
-SHARED_CONST uint kBrickMaterialUnit = 27;
-SHARED_CONST uint kBrickEmissionUnit = 28;
+// Texture units. A stage uses sixteen at most, but numbers go to eighty at least.
 SHARED_CONST uint kDepthMeshUnit = 5;
 SHARED_CONST uint kMaterialTextureUnit = 6; // and the four after it
 SHARED_CONST uint kDepthUnit = 0;           // of the passes that read the G-buffer
@@ -70,6 +65,13 @@ SHARED_CONST uint kMotionUnit = 24;
 SHARED_CONST uint kHistoryUnit = 25;
 SHARED_CONST uint kHistoryDepthUnit = 26;
 SHARED_CONST uint kWorldFieldUnit = 16; // of those that read the world field; a unit a cascade
+SHARED_CONST uint kOcclusionUnit = 24;  // behind the cascades
+SHARED_CONST uint kOcclusionTracedUnit = 25;
+SHARED_CONST uint kDistanceR8Unit = 26; // the bricks, which are read beside all of these
+SHARED_CONST uint kDistanceR16Unit = 27;
+SHARED_CONST uint kBrickBaseColorUnit = 28;
+SHARED_CONST uint kBrickMaterialUnit = 29;
+SHARED_CONST uint kBrickEmissionUnit = 30;
 
 SHARED_END
 

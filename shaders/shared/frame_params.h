@@ -61,6 +61,7 @@ SHARED_CONST uint DEBUG_VIEW_SHADOW_MAP = 20; // these two read the shadow maps
 SHARED_CONST uint DEBUG_VIEW_SHADOW_CASCADE = 21;
 SHARED_CONST uint DEBUG_VIEW_MOTION = 22; // these two read what temporal antialiasing keeps
 SHARED_CONST uint DEBUG_VIEW_TAA_FRAMES = 23;
+SHARED_CONST uint DEBUG_VIEW_AO = 32;
 
 SHARED_END
 

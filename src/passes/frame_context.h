@@ -4,6 +4,7 @@
 #include "gpu/buffer.h"
 #include "gpu/texture.h"
 #include "passes/frame_targets.h"
+#include "passes/light/occlusion_settings.h"
 #include "passes/light/shadow_settings.h"
 #include "passes/visible_boxes.h"
 #include "resident/resident_scene.h"
@@ -34,6 +35,7 @@ struct FrameContext {
   const Buffer* frameParams = nullptr;            ///< of the camera; bound when a pass begins
   const ShadowMaps* shadowMaps = nullptr;         ///< null: nobody asks for them
   const Temporal* temporal = nullptr;             ///< null: no temporal antialiasing
+  OcclusionSettings occlusion = {};
 };
 
 } // namespace brickfield

@@ -36,6 +36,18 @@ FrameTargets::FrameTargets(glm::uvec2 sizePixels)
                           {GL_DEPTH_ATTACHMENT, &depth}}),
       overdraw("box_overdraw", {{GL_COLOR_ATTACHMENT0, &boxOverdraw}}) {}
 
+void FrameTargets::fitOcclusion(int scale) {
+  if (scale == 0) {
+    occlusion = {}, occlusionTraced = {};
+    return;
+  }
+  const glm::uvec2 traced = (size + static_cast<unsigned>(scale) - 1u) / static_cast<unsigned>(scale);
+  if (!occlusion) occlusion = layer("occlusion", GL_R8, size);
+  if (!occlusionTraced || occlusionTraced.width() != static_cast<int>(traced.x) ||
+      occlusionTraced.height() != static_cast<int>(traced.y))
+    occlusionTraced = layer("occlusion_traced", GL_RG32UI, traced);
+}
+
 void FrameTargets::bindGBuffer() const {
   depth.bind(shared::kDepthUnit);
   normalWorldOct.bind(shared::kNormalUnit);
@@ -49,8 +61,9 @@ void FrameTargets::bindGBuffer() const {
 std::size_t FrameTargets::bytes() const {
   std::size_t sum = 0;
   for (const Texture* texture : {&depth, &depthMesh, &normalWorldOct, &albedo, &material, &emission, &id, &trace,
-                                 &shadow, &shadowHalf, &shadowReads, &color, &picture, &boxOverdraw})
-    sum += texture->bytes();
+                                 &shadow, &shadowHalf, &shadowReads, &occlusion, &occlusionTraced, &color, &picture,
+                                 &boxOverdraw})
+    if (*texture) sum += texture->bytes();
   return sum;
 }
 

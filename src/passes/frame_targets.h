@@ -12,23 +12,27 @@ struct FrameTargets {
   explicit FrameTargets(glm::uvec2 sizePixels);
 
   glm::uvec2 size;
-  Texture depth;          ///< D32F, reverse Z
-  Texture depthMesh;      ///< D32F: the meshes' depth alone
-  Texture normalWorldOct; ///< RGBA16_SNORM: shading normal, surface normal
-  Texture albedo;         ///< SRGB8_A8
-  Texture material;       ///< RGBA8: metallic, roughness, occlusion, unlit
-  Texture emission;       ///< R11F_G11F_B10F
-  Texture id;             ///< R32UI: node << 2 | kind
-  Texture trace;          ///< RG32UI: trace steps, number of the brick that was hit + 1
-  Texture shadow;         ///< RGBA8: visible shares of the first lights
-  Texture shadowHalf;     ///< RGBA8: the same of every second pixel of every second row
-  Texture shadowReads;    ///< R32UI: distances read for it; written in frames that count
-  Texture color;          ///< RGBA16F: linear radiance
-  Texture picture;        ///< RGBA8: after the tone curve
-  Texture boxOverdraw;    ///< R16F
-  Framebuffer gbuffer;    ///< depth and the six layers, in the order of the fragment outputs
+  Texture depth;           ///< D32F, reverse Z
+  Texture depthMesh;       ///< D32F: the meshes' depth alone
+  Texture normalWorldOct;  ///< RGBA16_SNORM: shading normal, surface normal
+  Texture albedo;          ///< SRGB8_A8
+  Texture material;        ///< RGBA8: metallic, roughness, occlusion, unlit
+  Texture emission;        ///< R11F_G11F_B10F
+  Texture id;              ///< R32UI: node << 2 | kind
+  Texture trace;           ///< RG32UI: trace steps, number of the brick that was hit + 1
+  Texture shadow;          ///< RGBA8: visible shares of the first lights
+  Texture shadowHalf;      ///< RGBA8: the same of every second pixel of every second row
+  Texture shadowReads;     ///< R32UI: distances read for it; written in frames that count
+  Texture occlusion;       ///< R8: open share of the hemisphere; none without fitOcclusion
+  Texture occlusionTraced; ///< RG32UI: the same at fewer pixels, lib/occlusion_code.glsl
+  Texture color;           ///< RGBA16F: linear radiance
+  Texture picture;         ///< RGBA8: after the tone curve
+  Texture boxOverdraw;     ///< R16F
+  Framebuffer gbuffer;     ///< depth and the six layers, in the order of the fragment outputs
   Framebuffer overdraw;
 
+  /// Makes the textures of occlusion that is traced at every scale-th pixel along both axes; 0: frees them.
+  void fitOcclusion(int scale);
   /// Binds the G-buffer's textures to the units of lib/gbuffer.glsl.
   void bindGBuffer() const;
   std::size_t bytes() const;

@@ -33,6 +33,10 @@ const char* resourceName(Resource resource) {
     return "shadow_map";
   case Resource::ShadowMoments:
     return "shadow_moments";
+  case Resource::OcclusionTraced:
+    return "occlusion_traced";
+  case Resource::Occlusion:
+    return "occlusion";
   case Resource::Color:
     return "color";
   case Resource::History:

@@ -23,7 +23,9 @@ enum class Resource : std::uint8_t {
   Shadow,      ///< visible shares of lights
   ShadowReads, ///< what they cost
   ShadowMap,
-  ShadowMoments, ///< blurred, of the shadow maps
+  ShadowMoments,   ///< blurred, of the shadow maps
+  OcclusionTraced, ///< open shares of the hemisphere at fewer pixels
+  Occlusion,       ///< at all of them
   Color,
   History, ///< pictures and depths averaged over frames
   Picture,
@@ -36,7 +38,7 @@ enum class Resource : std::uint8_t {
   WorldFieldCoarse,  ///< unsigned, less the thickness
   WorldField,        ///< the volume that other passes read, and what it keeps from frame to frame
 };
-inline constexpr int kResourceCount = 25;
+inline constexpr int kResourceCount = 27;
 const char* resourceName(Resource resource);
 
 /// How the GPU touches it: decides the barrier after incoherent writes.
@@ -62,6 +64,7 @@ struct PassDeclaration {
   std::string name;
   std::vector<ResourceUse> reads;
   std::vector<ResourceUse> writes;
+  std::vector<ResourceUse> readsIfMade{}; ///< what some frames have and others do without
 };
 
 } // namespace brickfield

@@ -60,6 +60,7 @@ void planFrame(std::vector<PlannedPass>& passes, const std::vector<ResourceUse>&
       if (!require(use))
         throw Failure(
             fmt::format("frame plan: {} reads {}, which nobody wrote", declaration.name, resourceName(use.resource)));
+    for (const ResourceUse& use : declaration.readsIfMade) require(use);
     for (const ResourceUse& use : declaration.writes) {
       require(use);
       lastWrite[static_cast<std::size_t>(use.resource)] = use.access;

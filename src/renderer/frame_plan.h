@@ -18,7 +18,7 @@ struct PlannedPass {
 /// Fills in the barriers.
 ///
 /// provided  what the host wrote before the frame
-/// error     Failure: a pass reads what no earlier one wrote; two passes of one name
+/// error     Failure: a pass reads what no earlier one wrote, unless it does without; two passes of one name
 /// proved by tests/unit/renderer/frame_plan_test.cpp
 void planFrame(std::vector<PlannedPass>& passes, const std::vector<ResourceUse>& provided);
 

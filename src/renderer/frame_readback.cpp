@@ -43,10 +43,13 @@ FrameLayers readFrameLayers(const FrameTargets& targets, const View& view, std::
   layers.kind.assign(pixels, SurfaceKind::None);
   layers.steps.assign(pixels, 0.0f);
   layers.shadow.assign(shadowedLights, std::vector<float>(pixels, 1.0f));
+  const std::vector<float> open = targets.occlusion ? targets.occlusion.readFloats() : std::vector<float>{};
+  layers.ambientOcclusion.resize(open.size());
   for (std::size_t y = 0; y < height; ++y)
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t source = (height - 1 - y) * width + x, p = y * width + x;
       layers.color[p] = {color[4 * source], color[4 * source + 1], color[4 * source + 2]};
+      if (!open.empty()) layers.ambientOcclusion[p] = open[source];
       const std::uint32_t kind = ids[source] & 3u;
       if (kind == shared::KIND_NONE) continue;
       const PrimaryRay ray = primaryRay(view, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});

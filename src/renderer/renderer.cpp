@@ -17,6 +17,7 @@
 #include "passes/geometry/sdf_box_pass.h"
 #include "passes/geometry/sdf_cull_pass.h"
 #include "passes/light/environment_pass.h"
+#include "passes/light/field_occlusion_pass.h"
 #include "passes/light/field_shadow_pass.h"
 #include "passes/light/lighting_pass.h"
 #include "passes/light/map_shadow_pass.h"
@@ -64,6 +65,8 @@ void recordPass(RtsdfRaysPass& pass, const FrameContext& frame) {
   pass.record(*frame.field->rtsdf, *frame.field->hierarchy, frame.worldTriangles->triangles());
 }
 void recordPass(FieldShadowPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(FieldOcclusionPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(OcclusionSpreadPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(FieldViewPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(ShadowMapPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(ShadowMomentsPass& pass, const FrameContext& frame) { pass.record(frame); }
@@ -95,7 +98,7 @@ constexpr bool isLate = requires(Pass pass, ShaderLibrary& shaders) {
 /// What decides which passes a frame has.
 struct FrameShape {
   bool boxesFirst = false;
-  bool hasExactField = false, hasRtsdfField = false, hasShadows = false;
+  bool hasExactField = false, hasRtsdfField = false, hasShadows = false, hasOcclusion = false;
   bool hasShadowMaps = false, hasShadowMoments = false, hasTaa = false;
   bool showsPicture = false, showsDebugView = false, showsFieldView = false, showsShadowMaps = false, showsTaa = false;
 };
@@ -127,6 +130,8 @@ struct Renderer::Parts {
   LatePass<RtsdfJumpFloodPass> rtsdfJumpFlood;
   LatePass<RtsdfRaysPass> rtsdfRays;
   LatePass<FieldShadowPass> fieldShadow;
+  LatePass<FieldOcclusionPass> fieldOcclusion;
+  LatePass<OcclusionSpreadPass> occlusionSpread;
   LatePass<FieldViewPass> fieldView;
   LatePass<ShadowMapPass> shadowMap;
   LatePass<ShadowMomentsPass> shadowMoments;
@@ -197,7 +202,8 @@ Renderer::Parts::Parts(const ContextInfo& info)
 bool Renderer::Parts::readsField() const {
   if (settings.worldField.method == FieldMethod::Off) return false;
   const DebugView* shown = findView(settings.view);
-  return settings.worldField.always || settings.shadows.method == ShadowMethod::Field || (shown && shown->readsField);
+  return settings.worldField.always || settings.shadows.method == ShadowMethod::Field ||
+         settings.occlusion.form != OcclusionForm::Off || (shown && shown->readsField);
 }
 
 const FieldFrame& Renderer::Parts::prepareField() {
@@ -258,6 +264,10 @@ void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
   if (shape.hasShadowMoments) take(&Parts::shadowMoments);
   if (shape.hasShadowMaps) take(&Parts::mapShadow);
   if (shape.hasShadows) take(&Parts::fieldShadow);
+  if (shape.hasOcclusion) {
+    take(&Parts::fieldOcclusion);
+    take(&Parts::occlusionSpread); // over all pixels
+  }
   take(&Parts::lighting); // also under a debug view: layers are whole whatever the picture shows
   if (shape.hasTaa) {
     take(&Parts::taa);
@@ -281,6 +291,7 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
                          context.field && context.field->exact,
                          context.field && context.field->rtsdf,
                          context.shadows && context.shadows->method == ShadowMethod::Field,
+                         context.occlusion.form != OcclusionForm::Off,
                          context.shadowMaps != nullptr,
                          context.shadowMaps && settings.shadowMaps.filter == ShadowFilter::Evsm,
                          context.temporal != nullptr,
@@ -376,6 +387,8 @@ void Renderer::render(const View& view) {
     parts.targets.reset();
     parts.targets = std::make_unique<FrameTargets>(view.sizePixels);
   }
+  const OcclusionSettings& occlusion = parts.settings.occlusion;
+  parts.targets->fitOcclusion(occlusion.form == OcclusionForm::Off ? 0 : occlusion.scale);
   parts.view = view;
   parts.prepareTemporal();
   parts.isFieldInFrame = parts.readsField();
@@ -400,7 +413,8 @@ void Renderer::render(const View& view) {
                              parts.settings.view == "shadow-reads",
                              &parts.frameParams,
                              parts.settings.shadows.method == ShadowMethod::Maps ? parts.shadowMaps.get() : nullptr,
-                             parts.temporal.get()};
+                             parts.temporal.get(),
+                             parts.settings.occlusion};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDisable(GL_BLEND);
   glEnable(GL_FRAMEBUFFER_SRGB); // albedo is stored as sRGB; the other targets are linear and unaffected
@@ -425,8 +439,8 @@ FrameStats Renderer::stats() {
   stats.counters = {counts[shared::COUNTER_FRAGMENTS],      counts[shared::COUNTER_HITS],
                     counts[shared::COUNTER_STEPS],          counts[shared::COUNTER_BRICK_READS],
                     counts[shared::COUNTER_PROMISE_BROKEN], counts[shared::COUNTER_OUT_OF_STEPS],
-                    counts[shared::COUNTER_SHADOW_READS],   counts[shared::COUNTER_MAP_FRAGMENTS],
-                    counts[shared::COUNTER_MAP_STEPS]};
+                    counts[shared::COUNTER_SHADOW_READS],   counts[shared::COUNTER_OCCLUSION_READS],
+                    counts[shared::COUNTER_MAP_FRAGMENTS],  counts[shared::COUNTER_MAP_STEPS]};
   if (parts.settings.shadows.method == ShadowMethod::Maps && parts.shadowMaps)
     stats.shadowMapLayers = static_cast<std::uint32_t>(parts.shadowMaps->layerCount());
   stats.sdfInstances = parts.scene->sdfInstanceCount();
@@ -465,7 +479,7 @@ FieldPicture Renderer::fieldPicture() const {
 
 std::vector<std::string> framePassNames() {
   std::vector<std::string> names;
-  Renderer::Parts::listPasses({false, true, true, true, true, true, true, true, true, true, true, true},
+  Renderer::Parts::listPasses({false, true, true, true, true, true, true, true, true, true, true, true, true},
                               [&]<typename Pass>(Pass Renderer::Parts::*) { names.push_back(Pass::declare().name); });
   return names;
 }

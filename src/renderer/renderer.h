@@ -22,10 +22,11 @@ struct FrameCounters {
   std::uint32_t hits = 0;
   std::uint32_t steps = 0;
   std::uint32_t brickReads = 0;
-  std::uint32_t promiseBroken = 0; ///< depths in front of the box face: must be 0
-  std::uint32_t outOfSteps = 0;    ///< rays that ran out of steps
-  std::uint32_t shadowReads = 0;   ///< of the world field, for shadows
-  std::uint32_t mapFragments = 0;  ///< box fragments in shadow maps
+  std::uint32_t promiseBroken = 0;  ///< depths in front of the box face: must be 0
+  std::uint32_t outOfSteps = 0;     ///< rays that ran out of steps
+  std::uint32_t shadowReads = 0;    ///< of the world field, for shadows
+  std::uint32_t occlusionReads = 0; ///< of it, for ambient occlusion
+  std::uint32_t mapFragments = 0;   ///< box fragments in shadow maps
   std::uint32_t mapSteps = 0;
 };
 

@@ -87,6 +87,7 @@ const std::vector<DebugView>& debugViews() {
        shared::DEBUG_VIEW_MOTION, kMotionRange, false, false, false, false, false, true},
       {"taa-frames", fmt::format("frames in each pixel's average, blue 0 to red {}", kTaaRange),
        shared::DEBUG_VIEW_TAA_FRAMES, kTaaRange, false, false, false, false, false, true},
+      {"ao", "ambient occlusion by --ao: white open, black hidden", shared::DEBUG_VIEW_AO},
   };
   return views;
 }
@@ -132,11 +133,17 @@ void checkSettings(const RendererSettings& settings) {
                    fmt::format("is not {} to {}", kLeastShadowTexels, kMostShadowTexels));
   if (!(settings.taa.sharpness >= 0 && settings.taa.sharpness <= 1))
     throw BadInput("taa", fmt::format("sharpness {}", settings.taa.sharpness), "is not in [0, 1]");
+  checkOcclusionSettings(settings.occlusion);
+  if (settings.occlusion.form != OcclusionForm::Off && settings.worldField.method == FieldMethod::Off)
+    throw BadInput("ambient occlusion", occlusionFormName(settings.occlusion.form),
+                   "needs a world field, which is off");
   if (settings.view.empty()) return;
   const DebugView* view = findView(settings.view);
   if (!view) throw BadInput("view", settings.view, "no such view");
   checkShadowView(*view, settings);
   if (view->readsField) checkFieldView(*view, settings);
+  if (view->number == shared::DEBUG_VIEW_AO && settings.occlusion.form == OcclusionForm::Off)
+    throw BadInput("view", view->name, "shows ambient occlusion, which is off");
 }
 
 } // namespace brickfield

@@ -47,6 +47,7 @@ struct RendererSettings {
   ShadowSettings shadows;  ///< Field makes a world field in each frame
   ShadowMapSettings shadowMaps; ///< where the method is of maps
   TaaSettings taa;
+  OcclusionSettings occlusion; ///< as the shadows: any form makes a world field in each frame
   FieldSettings worldField;
   FieldSlice fieldSlice;
 };

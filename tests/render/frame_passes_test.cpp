@@ -37,6 +37,7 @@ TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
     settings.shadows.method = settings.view.empty() ? ShadowMethod::Field : ShadowMethod::None;
     if (settings.view == "shadow-map") settings.shadows.method = ShadowMethod::Maps;
     settings.taa.on = settings.view == "motion";
+    settings.occlusion.form = settings.view == "steps" ? OcclusionForm::Cones : OcclusionForm::Off;
     settings.worldField.method = settings.view == "field" ? FieldMethod::Exact : FieldMethod::Rtsdf;
     renderer->setSettings(settings);
     renderer->render(view);

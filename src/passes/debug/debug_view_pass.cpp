@@ -14,7 +14,8 @@ PassDeclaration DebugViewPass::declare() {
            {Resource::BoxOverdraw, Access::Sampled},
            {Resource::Shadow, Access::Sampled},
            {Resource::ShadowReads, Access::Sampled}},
-          {{Resource::Picture, Access::ImageStore}}};
+          {{Resource::Picture, Access::ImageStore}},
+          {{Resource::Occlusion, Access::Sampled}}};
 }
 
 void DebugViewPass::record(const FrameContext& context) {
@@ -22,6 +23,7 @@ void DebugViewPass::record(const FrameContext& context) {
   context.targets.boxOverdraw.bind(shared::kOverdrawUnit);
   context.targets.shadow.bind(shared::kShadowUnit);
   context.targets.shadowReads.bind(shared::kShadowReadsUnit);
+  if (context.targets.occlusion) context.targets.occlusion.bind(shared::kOcclusionUnit);
   context.targets.picture.bindImage(0, 0, GL_WRITE_ONLY);
   program_->dispatchOver({context.targets.picture.width(), context.targets.picture.height(), 1});
 }

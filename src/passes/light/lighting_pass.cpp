@@ -15,7 +15,8 @@ PassDeclaration LightingPass::declare() {
            {Resource::GBuffer, Access::Sampled},
            {Resource::Shadow, Access::Sampled},
            {Resource::Environment, Access::Sampled}},
-          {{Resource::Color, Access::ImageStore}}};
+          {{Resource::Color, Access::ImageStore}},
+          {{Resource::Shadow, Access::Sampled}, {Resource::Occlusion, Access::Sampled}}};
 }
 
 void LightingPass::record(const FrameContext& context) {
@@ -26,6 +27,9 @@ void LightingPass::record(const FrameContext& context) {
   context.targets.shadow.bind(shared::kShadowUnit);
   const std::uint32_t shadowed = context.shadows ? context.scene.lightCount() : 0;
   program_->set("shadowedLights", std::min(static_cast<int>(shadowed), shared::MOST_SHADOWED_LIGHTS));
+  const bool isOccluded = context.occlusion.form != OcclusionForm::Off;
+  if (isOccluded) context.targets.occlusion.bind(shared::kOcclusionUnit);
+  program_->set("isOccluded", isOccluded);
   context.targets.color.bindImage(0, 0, GL_WRITE_ONLY);
   program_->dispatchOver({context.targets.color.width(), context.targets.color.height(), 1});
 }

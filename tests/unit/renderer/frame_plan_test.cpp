@@ -58,6 +58,15 @@ TEST(FramePlan, WriterBeforeOrHostSatisfiesAReader) {
   EXPECT_EQ(failureOf({{"tone", {{Resource::Color, Access::Sampled}}, {}}}, {{Resource::Color, Access::Upload}}), "");
 }
 
+// Shadows and their like: a frame without them is whole, and one with them waits for them.
+TEST(FramePlan, WhatAFrameMayDoWithoutIsWaitedForWhereItIsMade) {
+  const PassDeclaration lighting{"lighting", {}, {}, {{Resource::Shadow, Access::Sampled}}};
+  EXPECT_EQ(failureOf({lighting}, {}), "");
+  std::vector<PlannedPass> passes = passesOf({{"shadow", {}, {{Resource::Shadow, Access::ImageStore}}}, lighting});
+  planFrame(passes, {});
+  EXPECT_EQ(passes[1].barriersBefore, GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
 TEST(FramePlan, TwoPassesOfOneNameAreRefused) {
   EXPECT_THAT(failureOf({{"mesh", {}, {}}, {"other", {}, {}}, {"mesh", {}, {}}}, {}), HasSubstr("mesh"));
 }

@@ -1,0 +1,115 @@
+// How much of the hemisphere over a point is open, by the cosine, from the world field. Three ways: five taps along the
+// normal (Evans 2006, the lecture), the same along a few rays of the hemisphere (thesis 7.2.2), and narrow cones that
+// are traced. Taps compare distances with what an open plane would give, so that a plane is open to the last bit.
+#include "lib/world_field.glsl"
+#include "shared/field_occlusion_params.h"
+
+struct OcclusionPoint {
+  vec3 origin; // anchored; on the surface
+  vec3 normal; // of the surface, unit
+  float texel; // metres, of the field there
+};
+
+struct OcclusionSearch {
+  int form;     // OCCLUSION_*
+  int cones;    // a point
+  float radius; // metres: what is farther hides nothing
+};
+
+const int TAPS = 5, TAP_RAYS = 5, MOST_OCCLUSION_READS = 48;
+const float OCCLUSION_LIFT_TEXELS = 1.25, OCCLUSION_FADE_TEXELS = 12.0, OCCLUSION_LEAST_STEP_TEXELS = 0.5;
+// Of its way a cone is so wide that neighbours of one spiral touch, times this; wider ones fatten what they pass.
+const float CONE_SHARE = 0.2;
+// A cone over an open plane rises by its cosine; as wide as this part of it, errors of the field do not reach it.
+const float CONE_CLEAR = 0.5;
+const float LEAST_CONE_TEXELS = 0.2;
+const float SURE_CONE_DEPTH_TEXELS = 0.4; // things are a texel thick at least
+const float OCCLUSION_GOLDEN_ANGLE = 2.39996323;
+
+uint occlusionReads = 0u; // of this thread
+
+FieldReading readForOcclusion(vec3 pointAnchored) {
+  ++occlusionReads;
+  return readWorldField(pointAnchored);
+}
+
+float texelOfReading(FieldReading reading) {
+  return field.cascades[reading.cascade < 0 ? int(field.counts.x) - 1 : reading.cascade].texel.x;
+}
+
+// Right, up, normal.
+mat3 basisOfNormal(vec3 normal) {
+  vec3 right = normalize(abs(normal.y) < 0.9 ? vec3(normal.z, 0.0, -normal.x) : vec3(0.0, -normal.z, normal.y));
+  return mat3(right, cross(normal, right), normal);
+}
+
+// Weights halve from tap to tap: near things hide most. A texel off the surface, for sheets are thick in the field.
+float openOfTaps(OcclusionPoint point, vec3 direction, float radius) {
+  vec3 origin = point.origin + OCCLUSION_LIFT_TEXELS * point.texel * point.normal;
+  float cosine = dot(point.normal, direction), missing = 0.0, most = 0.0, weight = 0.5;
+  for (int i = 1; i <= TAPS; ++i, weight *= 0.5) {
+    float way = radius * float(i) / float(TAPS);
+    float open = way * cosine, found = readForOcclusion(origin + way * direction).distanceWorld;
+    missing += weight * clamp(open - found, 0.0, open);
+    most += weight * open;
+  }
+  return 1.0 - missing / most;
+}
+
+// A spherical Fibonacci hemisphere (Keinert and others 2015): equal solid angles, weighed by the cosine.
+float openOfTapRays(OcclusionPoint point, float radius) {
+  mat3 basis = basisOfNormal(point.normal);
+  float sum = 0.0, weights = 0.0;
+  for (int i = 0; i < TAP_RAYS; ++i) {
+    float cosine = 1.0 - (float(i) + 0.5) / float(TAP_RAYS), sine = sqrt(1.0 - cosine * cosine);
+    float angle = OCCLUSION_GOLDEN_ANGLE * float(i);
+    sum += cosine * openOfTaps(point, basis * vec3(sine * cos(angle), sine * sin(angle), cosine), radius);
+    weights += cosine;
+  }
+  return sum / weights;
+}
+
+// How free a cone is where it is touched most; as traceRay of lib/field_shadow.glsl, from a surface on.
+float openOfCone(OcclusionPoint point, vec3 direction, float spread, float radius) {
+  spread = min(spread, CONE_CLEAR * dot(point.normal, direction));
+  float t = 0.0, free = 1.0;
+  for (int i = 0; i < MOST_OCCLUSION_READS && t < radius; ++i) {
+    float lift = OCCLUSION_LIFT_TEXELS * point.texel * max(1.0 - t / (OCCLUSION_FADE_TEXELS * point.texel), 0.0);
+    FieldReading reading = readForOcclusion(point.origin + lift * point.normal + t * direction);
+    if (reading.cascade < 0 && t > 0.0) break; // outside of the field nothing is known to hide anything
+    float texel = texelOfReading(reading);
+    float width = max(spread * t, LEAST_CONE_TEXELS * texel);
+    float depth = min(0.5 * width, SURE_CONE_DEPTH_TEXELS * texel);
+    free = min(free, (reading.distanceWorld + depth) / width);
+    if (free <= 0.0) return 0.0;
+    t += max(reading.distanceWorld, OCCLUSION_LEAST_STEP_TEXELS * texel);
+  }
+  return free;
+}
+
+// Directions by the cosine: a spiral of equal parts of the disk below the hemisphere, turned and shifted by the place in
+// the pattern, so that all of a square together have as many times more.
+//
+// cell  0 to OCCLUSION_PATTERN_SIDE² - 1
+float openOfCones(OcclusionPoint point, OcclusionSearch search, uint cell) {
+  mat3 basis = basisOfNormal(point.normal);
+  const float cells = float(OCCLUSION_PATTERN_SIDE * OCCLUSION_PATTERN_SIDE);
+  float turn = 6.2831853 * float(bitfieldReverse(cell) >> 28) / cells, shift = (float(cell) + 0.5) / cells;
+  float spread = CONE_SHARE * inversesqrt(float(search.cones)), sum = 0.0;
+  for (int i = 0; i < search.cones; ++i) {
+    float disk2 = (float(i) + shift) / float(search.cones), angle = OCCLUSION_GOLDEN_ANGLE * float(i) + turn;
+    vec3 direction = basis * vec3(sqrt(disk2) * vec2(cos(angle), sin(angle)), sqrt(1.0 - disk2));
+    sum += openOfCone(point, direction, spread, search.radius);
+  }
+  return sum / float(search.cones);
+}
+
+// The open share, 0 to 1. As with shadows the cell may be any of the pattern's.
+float openShare(vec3 origin, vec3 normal, OcclusionSearch search, uint cell) {
+  OcclusionPoint point = OcclusionPoint(origin, normal, texelOfReading(readForOcclusion(origin)));
+  switch (search.form) {
+    case OCCLUSION_TAPS: return openOfTaps(point, normal, search.radius);
+    case OCCLUSION_RAYS: return openOfTapRays(point, search.radius);
+    default: return openOfCones(point, search, cell);
+  }
+}

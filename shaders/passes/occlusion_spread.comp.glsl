@@ -1,0 +1,79 @@
+// From occlusion traced at every scale-th pixel to that of every pixel: the mean over a square as large as the pattern
+// of directions, of what lies on about the same plane (bilateral: distance to the plane, and normal). The square's
+// border moves smoothly, so that nothing steps from pixel to pixel. A pixel like none around it is traced itself.
+#include "lib/field_occlusion.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/occlusion_code.glsl"
+#include "shared/sdf_params.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#ifdef COUNTERS_ON
+layout(std430, binding = kPassBufferABinding) buffer CounterBlock { uint counters[]; };
+#endif
+layout(binding = kOcclusionTracedUnit) uniform usampler2D occlusion_traced;
+layout(binding = 0, r8) writeonly uniform image2D occlusion;
+
+uniform int occlusionForm, occlusionCones, occlusionScale;
+uniform float occlusionRadius;
+
+// Of the square's width: what is as far from the plane counts no more.
+const float MOST_OFF_PLANE = 0.1;
+const float LEAST_NORMAL_COSINE = 0.8;
+// Of the places in the square; with less the mean would be noise.
+const float LEAST_SUM = 1.0;
+
+struct PixelPoint {
+  vec3 pointEye;
+  vec3 normal;
+  float reach; // metres, across the square
+};
+
+float likeness(PixelPoint pixel, TracedOcclusion traced, ivec2 place) {
+  if (isinf(traced.t)) return 0.0;
+  vec3 originEye, directionWorld;
+  viewRay(ndcFromPixel(vec2(pixelOfTraced(place, occlusionScale, ivec2(frame.size.xy))) + 0.5), originEye, directionWorld);
+  float off = abs(dot(pixel.normal, originEye + traced.t * directionWorld - pixel.pointEye));
+  return clamp(2.0 - 2.0 * off / (MOST_OFF_PLANE * pixel.reach), 0.0, 1.0) *
+         clamp((dot(pixel.normal, traced.normal) - LEAST_NORMAL_COSINE) / (1.0 - LEAST_NORMAL_COSINE) * 2.0, 0.0, 1.0);
+}
+
+float spreadTo(ivec2 pixel, PixelPoint point) {
+  vec2 first = vec2(pixel - occlusionScale / 2) / float(occlusionScale) - 0.5 * float(OCCLUSION_PATTERN_SIDE) + 0.5;
+  ivec2 corner = ivec2(floor(first)), last = textureSize(occlusion_traced, 0) - 1;
+  vec2 part = first - vec2(corner);
+  float sum = 0.0, weights = 0.0;
+  for (int y = 0; y <= OCCLUSION_PATTERN_SIDE; ++y)
+    for (int x = 0; x <= OCCLUSION_PATTERN_SIDE; ++x) {
+      ivec2 place = corner + ivec2(x, y);
+      if (any(lessThan(place, ivec2(0))) || any(greaterThan(place, last))) continue;
+      vec2 within = mix(vec2(1.0), mix(1.0 - part, part, greaterThan(ivec2(x, y), ivec2(0))),
+                        equal(ivec2(x, y) % OCCLUSION_PATTERN_SIDE, ivec2(0)));
+      TracedOcclusion traced = occlusionOfCode(texelFetch(occlusion_traced, place, 0).rg);
+      float weight = within.x * within.y * likeness(point, traced, place);
+      sum += weight * traced.open;
+      weights += weight;
+    }
+  if (weights >= LEAST_SUM) return sum / weights;
+  OcclusionSearch search = OcclusionSearch(occlusionForm, occlusionCones, occlusionRadius);
+  return openShare(point.pointEye + frame.eyeAnchored.xyz, point.normal, search, cellOfTraced(pixel));
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return;
+  float open = 1.0;
+  if (kindOfId(texelFetch(id, pixel, 0).r) != KIND_NONE) {
+    vec3 originEye, directionWorld;
+    viewRay(ndcFromPixel(vec2(pixel) + 0.5), originEye, directionWorld);
+    float t = rayParameterOfDepth(originEye, directionWorld, texelFetch(depth, pixel, 0).r);
+    vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).zw);
+    float pixelMetres = 2.0 / (frame.projection.y * float(frame.size.y)) * (frame.projection.z > 0.5 ? 1.0 : t);
+    float reach = pixelMetres * float(occlusionScale * OCCLUSION_PATTERN_SIDE);
+    open = spreadTo(pixel, PixelPoint(originEye + t * directionWorld, normal, reach));
+  }
+#ifdef COUNTERS_ON
+  atomicAdd(counters[COUNTER_OCCLUSION_READS], occlusionReads);
+#endif
+  imageStore(occlusion, pixel, vec4(open, 0.0, 0.0, 0.0));
+}
