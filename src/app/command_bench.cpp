@@ -1,4 +1,4 @@
-// The flags of `bench world-field` and `bench bake`; those of `bench shadows` are beside.
+// The flags of `bench world-field`, `bench ao` and `bench bake`; those of `bench shadows` are beside.
 #include "app/command_bench.h"
 
 #include <bit>
@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include "app/bench_bake.h"
+#include "app/bench_occlusion.h"
 #include "app/bench_world_field.h"
 #include "app/command_bench_shadows.h"
+#include "app/occlusion_choice.h"
 #include "app/parse.h"
 #include "core/error.h"
 
@@ -138,6 +140,61 @@ void addWorldField(CLI::App& bench, CommandAction& chosen) {
   });
 }
 
+float parseRadius(const std::string& flag, std::string_view text) {
+  const double metres = text == "inf" ? std::numeric_limits<double>::infinity() : parseNumber(flag, text, 0, 1e12);
+  if (!(metres > 0)) throw BadInput(flag, fmt::format("\"{}\"", text), "is not above 0");
+  return static_cast<float>(metres);
+}
+
+void addOcclusion(CLI::App& bench, CommandAction& chosen) {
+  CLI::App& command =
+      *bench.add_subcommand("ao", "Ambient occlusion: time, reads and error against the reference of each form");
+  const auto request = std::make_shared<OcclusionBenchRequest>();
+  command.add_option("SCENES", request->scenes, "glTF 2.0 files")->required();
+  addCameraOptions(command, request->camera);
+  command.add_option("--sdf", request->sdf.patterns, "Nodes drawn as SDF objects, as for render")
+      ->delimiter(',')
+      ->take_all()
+      ->allow_extra_args(false)
+      ->type_name("GLOB");
+  addPath(command, "--cache", "Folder of baked bricks", request->cache);
+  addFieldOptions(command, request->field);
+  addValue(command, "--radii", "As --ao-radius of render, metres or inf, comma separated; 1,inf by default",
+           [=](auto& flag, auto& text) {
+             request->radii = parseList<float>(text, [&](auto piece) { return parseRadius(flag, piece); });
+           })
+      ->type_name("M,...");
+  addValue(command, "--forms", "As --ao of render, comma separated; absent: all", [=](auto& flag, auto& text) {
+    request->forms = parseList<OcclusionForm>(text, [&](auto piece) {
+      const OcclusionForm form = parseOcclusionForm(flag, piece);
+      if (form == OcclusionForm::Off) throw BadInput(flag, "off", "has nothing to measure");
+      return form;
+    });
+  })->type_name("FORM,...");
+  addValue(command, "--scales", "As --ao-scale of render, comma separated; absent: all", [=](auto& flag, auto& text) {
+    request->scales = parseList<int>(text, [&](auto piece) { return parseOcclusionScale(flag, piece); });
+  })->type_name("SCALE,...");
+  addValue(command, "--samples", "Of the reference, a pixel, 64 by default; 0: no errors", [=](auto& flag, auto& text) {
+    request->samples = wholeIn(flag, 0, 65536)(text);
+  })->type_name("N");
+  addValue(command, "--frames", "Frames that are timed, 10 by default", [=](auto& flag, auto& text) {
+    request->frames = wholeIn(flag, 1, 100000)(text);
+  })->type_name("N");
+  addValue(command, "--device", "EGL device by number", [=](auto& flag, auto& text) {
+    request->device = wholeIn(flag, 0, 255)(text);
+  })->type_name("N");
+  addPath(command, "--json", "The figures as .json", request->json);
+  command.callback([request, &chosen] {
+    chosen = [request] {
+      settleFieldChoice(request->field, "", 0);
+      if (request->field.settings.method == FieldMethod::Off)
+        throw BadInput("--world-field", "off", "leaves nothing to measure");
+      runOcclusionBench(*request);
+      return 0;
+    };
+  });
+}
+
 #ifdef BRICKFIELD_BAKERS
 void addBake(CLI::App& bench, CommandAction& chosen) {
   CLI::App& command = *bench.add_subcommand("bake", "Times, memory and errors of the baker, beside OpenVDB's");
@@ -177,10 +234,11 @@ void addBake(CLI::App& bench, CommandAction& chosen) {
 void addBenchCommand(CLI::App& program, CommandAction& chosen) {
   CLI::App& command = *program.add_subcommand("bench", "Measure, on this machine");
   command.callback([&command] {
-    if (command.get_subcommands().empty()) throw BadInput("bench", "", "needs world-field, shadows or bake");
+    if (command.get_subcommands().empty()) throw BadInput("bench", "", "needs world-field, shadows, ao or bake");
   });
   addWorldField(command, chosen);
   addShadowBench(command, chosen);
+  addOcclusion(command, chosen);
 #ifdef BRICKFIELD_BAKERS
   addBake(command, chosen);
 #endif

@@ -6,6 +6,7 @@
 
 #include "app/image_io.h"
 #include "app/layers_io.h"
+#include "app/occlusion_choice.h"
 #include "app/options.h"
 #include "app/parse.h"
 #include "app/progress_bar.h"
@@ -105,13 +106,7 @@ void addTraceOptions(CLI::App& command, ReferenceOptions& options) {
   addReferenceShadows(command, options.shadows);
   command.add_flag("--ao", options.ambientOcclusion,
                    "Ambient occlusion: what stands around dims the environment's light; its own layer");
-  addValue(command, "--ao-radius", "What is farther away occludes nothing, metres; absent: however far; with --ao",
-           [&](auto& flag, auto& text) {
-             const double metres = parseNumber(flag, text, 0, 1e12);
-             if (!(metres > 0)) throw BadInput(flag, text, "is not above 0");
-             options.ambientOcclusionMetres = static_cast<float>(metres);
-           })
-      ->type_name("M");
+  addOcclusionRadius(command, options.ambientOcclusionMetres);
   addValue(command, "--sdf-as",
            "field: SDF objects as their own bricks; mesh: as the triangles that these were baked from, only marked in "
            "the layers; absent: field where --sdf names objects, mesh where the scene's extras alone do",

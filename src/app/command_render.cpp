@@ -32,6 +32,7 @@ int render(RenderRequest& request) {
   settleFieldChoice(request.field, request.view, request.scene.seed);
   checkFieldShadowChoice(request.fieldShadows, request.shadows == ShadowChoice::Field,
                          request.field.settings.method == FieldMethod::Exact);
+  settleOcclusionChoice(request.occlusion, request.view, request.field.settings.method != FieldMethod::Off);
   checkInputPath(request.scene.path, {".gltf", ".glb"});
   runRender(request);
   return 0;
@@ -64,6 +65,7 @@ void addOptions(CLI::App& command, RenderRequest& request) {
   addValue(command, "--sharpness", "Of temporal antialiasing, 0 (the default) to 1", [&](auto& flag, auto& text) {
     request.taa.sharpness = static_cast<float>(parseNumber(flag, text, 0, 1));
   })->type_name("S");
+  addOcclusionOptions(command, request.occlusion);
   addName(command, "--view", "A debug view instead of the picture; see \"brickfield list views\"", request.view);
   addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", request.layers);
   addPath(command, "--stats", "Times, counts and memory as .json", request.stats);

@@ -58,6 +58,15 @@ Json fieldSettingsJson(const FieldSettings& field) {
   return json;
 }
 
+Json occlusionSettingsJson(const OcclusionSettings& occlusion) {
+  Json json{{"form", occlusionFormName(occlusion.form)}};
+  if (occlusion.form == OcclusionForm::Off) return json;
+  json["radius"] = std::isfinite(occlusion.radiusMetres) ? Json(occlusion.radiusMetres) : Json("inf");
+  json["every_nth_pixel"] = occlusion.scale;
+  if (occlusion.form == OcclusionForm::Cones) json["cones"] = occlusion.cones;
+  return json;
+}
+
 // What was asked for, or what holds where nothing was.
 Json settingsJson(const RenderRun& run) {
   const RenderRequest& request = *run.request;
@@ -95,6 +104,7 @@ Json settingsJson(const RenderRun& run) {
   if (request.shadows == ShadowChoice::Csm)
     json["shadow_maps"] = {{"filter", shadowFilterName(request.shadowMaps.filter)}, {"size", request.shadowMaps.size}};
   json["taa"] = {{"on", request.taa.on}, {"sharpness", request.taa.sharpness}};
+  json["ao"] = occlusionSettingsJson(request.occlusion.settings);
   json["light"] = request.light.texts.empty() ? Json("scene") : Json(request.light.texts);
   json["environment"] = request.light.environment.empty() ? "sky" : request.light.environment.string();
   json["exposure"] = request.exposureEv;
@@ -184,6 +194,7 @@ Json countsJson(const FrameStats& stats) {
           {"promise_broken", stats.counters.promiseBroken},
           {"out_of_steps", stats.counters.outOfSteps},
           {"shadow_reads", stats.counters.shadowReads},
+          {"ao_reads", stats.counters.occlusionReads},
           {"shadow_map_layers", stats.shadowMapLayers},
           {"shadow_map_fragments", stats.counters.mapFragments},
           {"shadow_map_steps", stats.counters.mapSteps}};

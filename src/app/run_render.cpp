@@ -36,6 +36,7 @@ RendererSettings settingsOf(const RenderRequest& request) {
   if (request.shadows == ShadowChoice::Csm) settings.shadows.method = ShadowMethod::Maps;
   settings.shadowMaps = request.shadowMaps;
   settings.taa = request.taa;
+  settings.occlusion = request.occlusion.settings;
   settings.fieldSlice = request.field.slice;
   return settings;
 }

@@ -7,6 +7,7 @@
 
 #include "app/field_choice.h"
 #include "app/field_shadow_choice.h"
+#include "app/occlusion_choice.h"
 #include "app/options.h"
 #include "app/shadow_choice.h"
 
@@ -27,7 +28,8 @@ struct RenderRequest {
   FieldShadowChoice fieldShadows; ///< checked
   ShadowMapSettings shadowMaps;
   TaaSettings taa;
-  FieldChoice field; ///< settled
+  OcclusionChoice occlusion; ///< settled
+  FieldChoice field;         ///< settled
   float exposureEv = 0;
   std::string view; ///< one of debugViews(); empty: the lit picture
   int device = -1;  ///< -1: the first that works

@@ -60,9 +60,9 @@ void FrameTargets::bindGBuffer() const {
 
 std::size_t FrameTargets::bytes() const {
   std::size_t sum = 0;
-  for (const Texture* texture : {&depth, &depthMesh, &normalWorldOct, &albedo, &material, &emission, &id, &trace,
-                                 &shadow, &shadowHalf, &shadowReads, &occlusion, &occlusionTraced, &color, &picture,
-                                 &boxOverdraw})
+  for (const Texture* texture :
+       {&depth, &depthMesh, &normalWorldOct, &albedo, &material, &emission, &id, &trace, &shadow, &shadowHalf,
+        &shadowReads, &occlusion, &occlusionTraced, &color, &picture, &boxOverdraw})
     if (*texture) sum += texture->bytes();
   return sum;
 }

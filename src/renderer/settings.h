@@ -42,9 +42,9 @@ struct RendererSettings {
   std::uint32_t maxTraceSteps = 2048; ///< of a ray in one object; running out is a miss and is counted
   int forcedLevel = -1;               ///< level that all SDF objects show; -1: by the size of a voxel on screen
   DrawOrder drawOrder = DrawOrder::MeshesFirst;
-  bool countersOn = false; ///< counts fragments, steps and brick reads; slower
-  std::string view;        ///< one of debugViews(); empty: the lit picture
-  ShadowSettings shadows;  ///< Field makes a world field in each frame
+  bool countersOn = false;      ///< counts fragments, steps and brick reads; slower
+  std::string view;             ///< one of debugViews(); empty: the lit picture
+  ShadowSettings shadows;       ///< Field makes a world field in each frame
   ShadowMapSettings shadowMaps; ///< where the method is of maps
   TaaSettings taa;
   OcclusionSettings occlusion; ///< as the shadows: any form makes a world field in each frame

@@ -106,6 +106,7 @@ TEST_F(RenderStats, SettingsInForceWhereNothingWasAsked) {
                                         {"sdf", "extras"},
                                         {"resolution", "extras"},
                                         {"shadows", "none"},
+                                        {"ao", {{"form", "off"}}},
                                         {"light", "scene"},
                                         {"environment", "sky"},
                                         {"exposure", 0.0},
