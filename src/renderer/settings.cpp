@@ -83,7 +83,7 @@ const std::vector<DebugView>& debugViews() {
       {"shadow-cascade", "a colour for the shadow map that answers, in fields of eight of its texels; grey: none",
        shared::DEBUG_VIEW_SHADOW_CASCADE, 0, false, false, false, false, true},
       {"motion",
-       fmt::format("motion vectors: red to the right, green upwards, full at {} pixels a frame", kMotionRange),
+       fmt::format("motion vectors, pixels a frame: red {} and more to the right, green upwards", kMotionRange),
        shared::DEBUG_VIEW_MOTION, kMotionRange, false, false, false, false, false, true},
       {"taa-frames", fmt::format("frames in each pixel's average, blue 0 to red {}", kTaaRange),
        shared::DEBUG_VIEW_TAA_FRAMES, kTaaRange, false, false, false, false, false, true},
