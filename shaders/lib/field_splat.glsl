@@ -49,11 +49,10 @@ SplatTriangle splatTriangle(FieldCascade cascade, uint number) {
   return s;
 }
 
-// A point in the frame, texels. Of a row of points all but the first product is the same.
+// A point in the frame, texels.
 vec3 inFrame(SplatTriangle t, vec3 point) {
   vec3 p = point - t.origin;
-  return p.x * vec3(t.along.x, t.up.x, t.normal.x) +
-         (p.y * vec3(t.along.y, t.up.y, t.normal.y) + p.z * vec3(t.along.z, t.up.z, t.normal.z));
+  return vec3(dot(p, t.along), dot(p, t.up), dot(p, t.normal));
 }
 
 // Squared distance to an edge, of a point given as (along the edge, across).
@@ -81,33 +80,51 @@ void splatBounds(uint cascadeIndex, SplatTriangle t, out ivec3 lower, out ivec3 
   upper = min(ivec3(clamp(floor(high), vec3(first - 1), vec3(last + 1))), last);
 }
 
-// A row of texels along x as memory has it.
-struct SplatRow {
-  uint word; // of x = 0 in the first slot
-  int slots; // tiles along x, less one
-};
-
-SplatRow splatRow(FieldCascade cascade, int y, int z) {
-  uint slot = tileSlot(cascade, ivec3(0, y, z) >> 3);
-  uint word = cascade.buffers.x + slot * FIELD_TILE_TEXELS + indexInTile(ivec3(0, y, z), int(FIELD_TILE));
-  return SplatRow(word, (cascade.window.w >> 3) - 1);
-}
-
-uint wordOf(SplatRow row, int x) { return row.word + uint(x >> 3 & row.slots) * FIELD_TILE_TEXELS + uint(x & 7); }
-
 // Old values can only be larger: most texels are spared the atomic. In tiles that are not made anew the same key stands
 // already, or a smaller one.
-void splatTexel(SplatRow row, SplatTriangle t, int x, vec3 framed) {
-  float squared = squaredDistance(t, framed);
+void splatAt(FieldCascade cascade, SplatTriangle t, ivec3 lattice) {
+  float squared = squaredDistance(t, inFrame(t, vec3(lattice) + 0.5));
   if (squared > SPLAT_TEXELS * SPLAT_TEXELS) return;
-  uint word = wordOf(row, x), key = keyOf(sqrt(squared) + t.extra, t.number);
+  uint word = texelWord(cascade, lattice), key = keyOf(sqrt(squared) + t.extra, t.number);
   if (key < keys[word]) atomicMin(keys[word], key);
 }
 
-void splatBox(FieldCascade cascade, SplatTriangle t, ivec3 lower, ivec3 upper) {
-  for (int z = lower.z; z <= upper.z; ++z)
-    for (int y = lower.y; y <= upper.y; ++y) {
-      SplatRow row = splatRow(cascade, y, z);
-      for (int x = lower.x; x <= upper.x; ++x) splatTexel(row, t, x, inFrame(t, vec3(x, y, z) + 0.5));
-    }
+// Texels of a box, numbered along x first.
+struct SplatBox {
+  ivec3 lower;
+  int alongX, plane, count; // texels of a row, of a plane, and of all; none: nothing to do
+  float oneOverX, oneOverPlane;
+};
+
+SplatBox splatBox(ivec3 lower, ivec3 upper) {
+  ivec3 size = max(upper - lower + 1, ivec3(0));
+  int plane = size.x * size.y;
+  return SplatBox(lower, size.x, plane, plane * size.z, 1.0 / float(size.x), 1.0 / float(plane));
+}
+
+// Of a box of less than 2^20 texels: halves keep quotients away from whole numbers by more than floats round.
+ivec3 texelOfBox(SplatBox box, int number) {
+  int z = int((float(number) + 0.5) * box.oneOverPlane), inPlane = number - z * box.plane;
+  int y = int((float(inPlane) + 0.5) * box.oneOverX);
+  return box.lower + ivec3(inPlane - y * box.alongX, y, z);
+}
+
+// First texel of a part.
+ivec3 partCorner(FieldCascade cascade, uint part) {
+  return cascade.window.xyz + ivec3(part & 31u, part >> 5 & 31u, part >> 10 & 31u) * int(SPLAT_PART_TEXELS);
+}
+
+// Of a triangle, the texels to be looked at of a part, or of all.
+SplatBox splatPart(uint cascadeIndex, FieldCascade cascade, SplatTriangle t, uint part) {
+  ivec3 lower, upper;
+  splatBounds(cascadeIndex, t, lower, upper);
+  if (part == SPLAT_WHOLE) return splatBox(lower, upper);
+  ivec3 corner = partCorner(cascade, part);
+  return splatBox(max(lower, corner), min(upper, corner + int(SPLAT_PART_TEXELS) - 1));
+}
+
+// Texels in the box of all that a triangle may reach, whatever of them is made anew.
+float reachedTexels(SplatTriangle t) {
+  vec3 extent = t.high - t.low + 2.0 * SPLAT_TEXELS;
+  return extent.x * extent.y * extent.z;
 }

@@ -1,34 +1,28 @@
-// Offsets to the nearest seed, as three sweeps along the axes find them (a distance transform in the way of
-// Felzenszwalb and Huttenlocher 2012, but by plain search in a window: it is short). One word holds what the three
-// leave, seven bits each: x: offset along x; y: offsets along x and y to the best in the plane; z: offset along z.
-// 0: no seed within reach.
+// Offsets to the nearest seed of coarse texels, by a distance transform in a window: in planes across z first, then
+// along z. One word holds what both leave: in the low ten bits the offset in the plane, five bits an axis; above them
+// its square, or NO_SEED_IN_PLANE; in the high fourteen the offset to the nearest seed of all and one, or 0.
 #include "lib/field_grid.glsl"
 
-const int SWEEP_BIAS = 64;
-const uint SWEEP_MASK = 127u;
-const uint SWEEP_ROW_SHIFT = 0u, SWEEP_PLANE_X_SHIFT = 7u, SWEEP_PLANE_Y_SHIFT = 14u, SWEEP_Z_SHIFT = 21u;
+const int SWEEP_REACH = 10; // the longest, fieldSweepReach(16)
+const int SWEEP_SIDE = 2 * SWEEP_REACH + 1;
+const uint NO_SEED_IN_PLANE = 255u;
+const uint SWEEP_PLANE_BITS = 18u;
 
-uint sweepBits(int offset, uint shift) { return uint(offset + SWEEP_BIAS) << shift; }
-int sweepOffset(uint word, uint shift) { return int(word >> shift & SWEEP_MASK) - SWEEP_BIAS; }
-bool hasSweep(uint word, uint shift) { return (word >> shift & SWEEP_MASK) != 0u; }
-
-// Squared distance to what the sweeps before `axis` found, or a large number.
-int sweepCost(uint word, int axis) {
-  if (axis == 1) {
-    int x = sweepOffset(word, SWEEP_ROW_SHIFT);
-    return hasSweep(word, SWEEP_ROW_SHIFT) ? x * x : 1 << 20;
-  }
-  int x = sweepOffset(word, SWEEP_PLANE_X_SHIFT), y = sweepOffset(word, SWEEP_PLANE_Y_SHIFT);
-  return hasSweep(word, SWEEP_PLANE_X_SHIFT) ? x * x + y * y : 1 << 20;
+uint planeWord(uint cost, ivec2 offset) {
+  return cost << 10u | uint(offset.y + SWEEP_REACH) << 5u | uint(offset.x + SWEEP_REACH);
 }
+uint planeCost(uint word) { return word >> 10u & 255u; }
+ivec2 planeOffset(uint word) { return ivec2(word & 31u, word >> 5u & 31u) - SWEEP_REACH; }
 
-// The word after the sweep along `axis` found its best at `offset`, whose word is `found`.
-uint sweepResult(uint own, uint found, int offset, int axis) {
-  if (axis == 0) return sweepBits(offset, SWEEP_ROW_SHIFT);
-  if (axis == 1)
-    return (own & SWEEP_MASK) | sweepBits(sweepOffset(found, SWEEP_ROW_SHIFT), SWEEP_PLANE_X_SHIFT) |
-           sweepBits(offset, SWEEP_PLANE_Y_SHIFT);
-  return (own & ~(SWEEP_MASK << SWEEP_Z_SHIFT)) | sweepBits(offset, SWEEP_Z_SHIFT);
+uint seedWord(uint word, ivec3 offset) {
+  ivec3 at = offset + SWEEP_REACH;
+  return (word & (1u << SWEEP_PLANE_BITS) - 1u) |
+         uint((at.z * SWEEP_SIDE + at.y) * SWEEP_SIDE + at.x + 1) << SWEEP_PLANE_BITS;
+}
+bool hasSeed(uint word) { return word >> SWEEP_PLANE_BITS != 0u; }
+ivec3 seedOffset(uint word) {
+  int at = int(word >> SWEEP_PLANE_BITS) - 1;
+  return ivec3(at % SWEEP_SIDE, at / SWEEP_SIDE % SWEEP_SIDE, at / (SWEEP_SIDE * SWEEP_SIDE)) - SWEEP_REACH;
 }
 
 // Coarse texels that a sweep looks to either side; field/field_windows.h fieldSweepReach.

@@ -20,7 +20,8 @@ bool isBandAt(FieldCascade cascade, ivec3 lattice) {
   return isBandTile(tiles[cascade.buffers.z + tileSlot(cascade, lattice >> 3)]);
 }
 
-void store(uint cascadeIndex, ivec3 lattice, float texels, uint word) {
+// at  texelWord of the texel
+void storeAt(uint at, uint cascadeIndex, ivec3 lattice, float texels, uint word) {
   FieldCascade cascade = field.cascades[cascadeIndex];
   float range = cascade.texel.z;
   if (abs(texels) >= range) word &= ~FIELD_NODE_MASK;
@@ -32,8 +33,12 @@ void store(uint cascadeIndex, ivec3 lattice, float texels, uint word) {
     if (texels > toBorder) word &= ~FIELD_NODE_MASK;
     texels = min(texels, toBorder);
   }
-  nodes[texelWord(cascade, lattice)] = word;
+  nodes[at] = word;
   imageStore(distances[cascadeIndex], lattice & (cascade.window.w - 1), vec4(texels));
+}
+
+void store(uint cascadeIndex, ivec3 lattice, float texels, uint word) {
+  storeAt(texelWord(field.cascades[cascadeIndex], lattice), cascadeIndex, lattice, texels, word);
 }
 
 // sheetHalf  texels that the value lies below the distance

@@ -1,5 +1,6 @@
 // The triangle of each coarse texel: the nearest of those that its own nearest seed and those of its eighteen nearest
 // neighbours name.
+#include "lib/field_band.glsl"
 #include "lib/field_candidates.glsl"
 #include "lib/field_grid.glsl"
 #include "lib/field_sweep.glsl"
@@ -11,6 +12,11 @@ layout(std430, binding = kFieldSeedBinding) readonly buffer SeedBlock { uint see
 layout(std430, binding = kFieldSweepBinding) readonly buffer SweepBlock { uint sweeps[]; };
 layout(std430, binding = kFieldCandidateBinding) writeonly buffer CandidateBlock { uint candidates[]; };
 layout(std430, binding = kFieldTileBinding) buffer TileBlock { FieldTile tiles[]; };
+
+layout(std430, binding = kFieldNewBandBinding) buffer BandBlock {
+  uint bandCount;
+  uint band[]; // words as those of lists, in whatever order
+};
 
 uniform uint listLength;
 
@@ -26,11 +32,7 @@ shared uint leastBits, leastTexel;
 uint seedNamedBy(FieldCascade cascade, ivec3 coarse) {
   if (!isInWindow(cascade, coarse * COARSE)) return FIELD_NONE;
   uint word = sweeps[coarseWord(cascade, coarse)];
-  if (!hasSweep(word, SWEEP_Z_SHIFT)) return FIELD_NONE;
-  ivec3 inPlane = coarse + ivec3(0, 0, sweepOffset(word, SWEEP_Z_SHIFT));
-  uint plane = sweeps[coarseWord(cascade, inPlane)];
-  ivec3 seed = inPlane + ivec3(sweepOffset(plane, SWEEP_PLANE_X_SHIFT), sweepOffset(plane, SWEEP_PLANE_Y_SHIFT), 0);
-  return seeds[coarseWord(cascade, seed)];
+  return hasSeed(word) ? seeds[coarseWord(cascade, coarse + seedOffset(word))] : FIELD_NONE;
 }
 
 void main() {
@@ -49,11 +51,11 @@ void main() {
   Nearest nearest = Nearest(FIELD_NONE, 1e30);
   int own = ((at.z + 1) * APRON + at.y + 1) * APRON + at.x + 1;
   consider(named[own], point, sheetHalf, nearest);
-  for (int i = 0; i < 27; ++i) {
-    ivec3 step = cubeIndex(i, 3) - 1;
-    if (abs(step.x) + abs(step.y) + abs(step.z) < 3) // the eight at the corners add nothing
-      consider(named[own + (step.z * APRON + step.y) * APRON + step.x], point, sheetHalf, nearest);
-  }
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y) {
+      int row = own + (z * APRON + y) * APRON, side = z * y == 0 ? 1 : 0; // the eight at the corners add nothing
+      for (int x = -side; x <= side; ++x) consider(named[row + x], point, sheetHalf, nearest);
+    }
   // Farther away what is nearest may lie outside the sweeps' window. It is farther than the coarse texels of a tile and
   // those beside it lie apart, 13.9: what has no candidate there has the sign of the tile's nearest to a surface.
   if (nearest.rank * cascade.texel.y > float(COARSE * sweepReach(cascade)) - SEED_AWAY_TEXELS) nearest.triangle = FIELD_NONE;
@@ -74,5 +76,6 @@ void main() {
     tiles[tile.word].nearest = nearest.triangle;
     tiles[tile.word].nearestBits = leastBits;
     tiles[tile.word].nearestTexel = gl_LocalInvocationIndex;
+    if (isBandTile(tiles[tile.word])) band[atomicAdd(bandCount, 1u)] = listed[index];
   }
 }

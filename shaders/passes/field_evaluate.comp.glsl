@@ -7,13 +7,13 @@
 
 layout(local_size_x = OPEN_THREADS) in;
 
-layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
+layout(std430, binding = kFieldBandBinding) readonly buffer BandBlock {
+  uint bandCount;
+  uint band[]; // words as those of lists, in whatever order
+};
 layout(std430, binding = kFieldKeyBinding) readonly buffer KeyBlock { uint keys[]; };
 layout(std430, binding = kFieldIdBinding) writeonly buffer IdBlock { uint ids[]; };
 layout(std430, binding = kFieldCandidateBinding) readonly buffer CandidateBlock { uint candidates[]; };
-layout(std430, binding = kFieldTileBinding) readonly buffer TileBlock { FieldTile tiles[]; };
-
-uniform uint listLength;
 
 const int COARSE_APRON = COARSE_TILE + 2;
 const int KEY_APRON = int(FIELD_TILE) + 2;
@@ -44,10 +44,12 @@ void load(ListedTile tile, FieldCascade cascade) {
 
 uint nearestAround(ivec3 at, vec3 point, float sheetHalf) {
   Nearest nearest = Nearest(FIELD_NONE, 1e30);
-  for (int n = 0; n < 27; ++n) {
-    ivec3 k = at + ivec3(n % 3, n / 3 % 3, n / 9);
-    consider(keyIds[(k.z * KEY_APRON + k.y) * KEY_APRON + k.x], point, sheetHalf, nearest);
-  }
+  int lowest = (at.z * KEY_APRON + at.y) * KEY_APRON + at.x; // of the 27
+  for (int z = 0; z < 3; ++z)
+    for (int y = 0; y < 3; ++y) {
+      int row = lowest + (z * KEY_APRON + y) * KEY_APRON;
+      for (int x = 0; x < 3; ++x) consider(keyIds[row + x], point, sheetHalf, nearest);
+    }
   bool isNear = nearest.triangle != FIELD_NONE; // keys say enough
   ivec3 coarse = (at + 1) >> 1;                 // the lowest of the eight, in the apron
   for (int corner = 0; corner < 8 && !isNear; ++corner) {
@@ -57,12 +59,8 @@ uint nearestAround(ivec3 at, vec3 point, float sheetHalf) {
   return nearest.triangle;
 }
 
-void main() {
-  uint index = listIndex();
-  if (index >= listLength) return;
-  ListedTile tile = listedTile(listed[index]);
+void evaluateTile(ListedTile tile) {
   FieldCascade cascade = field.cascades[tile.cascade];
-  if (!isBandTile(tiles[tile.word])) return;
   load(tile, cascade);
   float sheetHalf = cascade.texel.w * cascade.texel.x;
   uint mine = 0u; // texels without a key
@@ -87,5 +85,12 @@ void main() {
     ivec3 at = cubeIndex(int(open[i]), int(FIELD_TILE));
     ids[tile.word * FIELD_TILE_TEXELS + open[i]] =
         nearestAround(at, texelCenter(cascade, tile.firstTexel + at), sheetHalf);
+  }
+}
+
+void main() {
+  for (uint at = gl_WorkGroupID.x; at < bandCount; at += gl_NumWorkGroups.x) {
+    evaluateTile(listedTile(band[at]));
+    barrier();
   }
 }

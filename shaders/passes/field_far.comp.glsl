@@ -21,6 +21,7 @@ const int APRON = COARSE_TILE + 2;
 shared float coarseTexels[APRON * APRON * APRON];
 shared uint coarseNodes[COARSE_TILE_TEXELS];
 shared bool isTorn; // signs of the tile contradict each other
+shared bool hasSide[2]; // any coarse texel is outside, inside
 
 // Coarse neighbours lie two texels apart. Of opposite signs their distances sum to no more, and what candidates err by.
 const float TORN_TEXELS = 2.0 + 0.8;
@@ -28,13 +29,16 @@ const float TORN_TEXELS = 2.0 + 0.8;
 const float TOLD_TEXELS = 2.5980762 + 0.6;
 
 void load(ListedTile tile, FieldCascade cascade, float unknown) {
-  if (gl_LocalInvocationIndex == 0u) isTorn = false;
+  if (gl_LocalInvocationIndex == 0u) isTorn = hasSide[0] = hasSide[1] = false;
+  barrier();
   ivec3 firstCoarse = tile.firstTexel / COARSE, first = cascade.window.xyz / COARSE;
   for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += 128) {
     // Beyond the window's border stand the values of the border.
     ivec3 coarse = clamp(firstCoarse - 1 + cubeIndex(i, APRON), first, first + cascade.window.w / COARSE - 1);
     float texels = coarseValue(cascade, coarse);
-    coarseTexels[i] = texels == UNKNOWN_TEXELS ? unknown : texels;
+    texels = texels == UNKNOWN_TEXELS ? unknown : texels;
+    coarseTexels[i] = texels;
+    hasSide[texels < 0.0 ? 1 : 0] = true;
   }
   if (gl_LocalInvocationIndex < COARSE_TILE_TEXELS) {
     uint triangle = candidates[coarseWord(cascade, firstCoarse) + gl_LocalInvocationIndex];
@@ -45,6 +49,7 @@ void load(ListedTile tile, FieldCascade cascade, float unknown) {
 
 // After load.
 void findTears() {
+  if (!hasSide[0] || !hasSide[1]) return;
   for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += 128) {
     ivec3 at = cubeIndex(i, APRON);
     for (int axis = 0; axis < 3; ++axis) {
@@ -84,9 +89,10 @@ float between(ivec3 at, Around texels) {
 
 // A fine texel whose sign is better asked for than its own.
 //
+// at      its word
 // isTold  the coarse ones around it lie so deep inside that it does as well
-void reviseSign(uint cascadeIndex, FieldCascade cascade, ivec3 lattice, bool isTold) {
-  uint word = nodes[texelWord(cascade, lattice)], id = ids[texelWord(cascade, lattice)];
+void reviseSign(uint at, uint cascadeIndex, FieldCascade cascade, ivec3 lattice, bool isTold) {
+  uint word = nodes[at], id = ids[at];
   if ((word & SIGNED) != 0u && (!isTold || (word & FIELD_NODE_INSIDE) != 0u)) return;
   WorldTriangle t = triangles[id & ~FIELD_ID_KEYED];
   if (!isClosed(t)) return;
@@ -95,7 +101,24 @@ void reviseSign(uint cascadeIndex, FieldCascade cascade, ivec3 lattice, bool isT
   bool isInside = isTold || isInsideFar(cascade, t, point, hit);
   if (isInside == ((word & FIELD_NODE_INSIDE) != 0u)) return;
   float texels = sqrt(hit.squared) * cascade.texel.y;
-  store(cascadeIndex, lattice, isInside ? -texels : sureTexels(texels, 0.0), word ^ (FIELD_NODE_INSIDE | TURNED));
+  storeAt(at, cascadeIndex, lattice, isInside ? -texels : sureTexels(texels, 0.0), word ^ (FIELD_NODE_INSIDE | TURNED));
+}
+
+// In a torn tile.
+float betweenTorn(ivec3 at) {
+  Around texels = around(at);
+  // All of them lie nearer to the texel than any surface.
+  if (leastOf(texels) < 0.0) texels = Around(-abs(texels.low), -abs(texels.high));
+  return between(at, texels);
+}
+
+// Between the four coarse texels around a texel in a plane across z.
+//
+// lowest  of the four, in the apron
+// part    of the upper ones
+float betweenInPlane(int lowest, vec2 part) {
+  return mix(mix(coarseTexels[lowest], coarseTexels[lowest + 1], part.x),
+             mix(coarseTexels[lowest + APRON], coarseTexels[lowest + APRON + 1], part.x), part.y);
 }
 
 void resolveReached(ListedTile tile, FieldCascade cascade) {
@@ -106,19 +129,26 @@ void resolveReached(ListedTile tile, FieldCascade cascade) {
   float unknown = cascade.texel.z + 1.5;
   load(tile, cascade, isInside ? -unknown : unknown);
   findTears();
-  for (int i = int(gl_LocalInvocationIndex); i < int(FIELD_TILE_TEXELS); i += 128) {
-    ivec3 at = cubeIndex(i, int(FIELD_TILE)), lattice = tile.firstTexel + at;
-    if (isBand && (nodes[texelWord(cascade, lattice)] & FINE) != 0u) {
-      reviseSign(tile.cascade, cascade, lattice, isTorn && leastOf(around(at)) < -TOLD_TEXELS);
+  // A thread has every other texel along z: each plane of coarse ones serves two of them.
+  ivec3 at = cubeIndex(int(gl_LocalInvocationIndex), int(FIELD_TILE));
+  uint word = tile.word * FIELD_TILE_TEXELS + gl_LocalInvocationIndex;
+  ivec2 lowest = (at.xy + 1) >> 1;
+  int plane = (at.z * APRON + lowest.y) * APRON + lowest.x;
+  vec3 part = mix(vec3(0.75), vec3(0.25), vec3(at & 1)); // centres lie at quarters
+  float below = betweenInPlane(plane, part.xy);
+  for (; at.z < int(FIELD_TILE); at.z += 2, word += 128u) {
+    plane += APRON * APRON;
+    float above = betweenInPlane(plane, part.xy), texels = mix(below, above, part.z);
+    below = above;
+    ivec3 lattice = tile.firstTexel + at;
+    if (isBand && (nodes[word] & FINE) != 0u) {
+      reviseSign(word, tile.cascade, cascade, lattice, isTorn && leastOf(around(at)) < -TOLD_TEXELS);
       continue;
     }
-    Around coarseOnes = around(at);
-    // All of them lie nearer to the texel than any surface.
-    if (isTorn && leastOf(coarseOnes) < 0.0) coarseOnes = Around(-abs(coarseOnes.low), -abs(coarseOnes.high));
-    float texels = between(at, coarseOnes);
+    if (isTorn) texels = betweenTorn(at);
     ivec3 coarse = at >> 1;
     uint node = coarseNodes[(coarse.z * COARSE_TILE + coarse.y) * COARSE_TILE + coarse.x];
-    store(tile.cascade, lattice, texels, node | (texels < 0.0 ? FIELD_NODE_INSIDE : 0u));
+    storeAt(word, tile.cascade, lattice, texels, node | (texels < 0.0 ? FIELD_NODE_INSIDE : 0u));
   }
 }
 

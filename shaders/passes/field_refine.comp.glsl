@@ -5,13 +5,15 @@
 
 layout(local_size_x = OPEN_THREADS) in;
 
-layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
+layout(std430, binding = kFieldBandBinding) readonly buffer BandBlock {
+  uint bandCount;
+  uint band[]; // words as those of lists, in whatever order
+};
 layout(std430, binding = kFieldIdBinding) readonly buffer IdBlock { uint ids[]; };
-
-uniform uint listLength;
 
 const int APRON = int(FIELD_TILE) + 2;
 shared uint apron[APRON * APRON * APRON];
+shared bool isKnown[27]; // of the tile and those around it: whether they have ids
 
 // Of a texel of the tile.
 int apronIndex(int texel) {
@@ -21,10 +23,15 @@ int apronIndex(int texel) {
 
 void load(ListedTile tile, FieldCascade cascade) {
   if (gl_LocalInvocationIndex == 0u) openCount = 0u;
+  if (gl_LocalInvocationIndex < 27u) {
+    ivec3 lattice = tile.firstTexel + (cubeIndex(int(gl_LocalInvocationIndex), 3) - 1) * int(FIELD_TILE);
+    isKnown[gl_LocalInvocationIndex] = isInWindow(cascade, lattice) && isBandAt(cascade, lattice);
+  }
+  barrier();
   for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += int(OPEN_THREADS)) {
-    ivec3 at = cubeIndex(i, APRON) - 1, lattice = tile.firstTexel + at;
-    bool isKnown = ivec3(at & 7) == at || (isInWindow(cascade, lattice) && isBandAt(cascade, lattice));
-    apron[i] = isKnown ? ids[texelWord(cascade, lattice)] : FIELD_NONE;
+    ivec3 at = cubeIndex(i, APRON) - 1, inTiles = (at >> 3) + 1;
+    bool isHere = isKnown[(inTiles.z * 3 + inTiles.y) * 3 + inTiles.x];
+    apron[i] = isHere ? ids[texelWord(cascade, tile.firstTexel + at)] : FIELD_NONE;
   }
   barrier();
   uint mine = 0u;
@@ -37,12 +44,6 @@ void load(ListedTile tile, FieldCascade cascade) {
   }
   listOpen(mine);
   barrier();
-}
-
-// To the neighbour beyond the face-th face, 0 to 5.
-int faceStep(int face) {
-  int step = face < 2 ? 1 : face < 4 ? APRON : APRON * APRON;
-  return (face & 1) == 0 ? -step : step;
 }
 
 void considerAt(int at, vec3 point, float sheetHalf, inout Nearest nearest) {
@@ -89,12 +90,8 @@ void storeNearest(uint cascadeIndex, ivec3 lattice, vec3 point, Nearest nearest)
             thinTexels(cascade, point, hit, outwards));
 }
 
-void main() {
-  uint index = listIndex();
-  if (index >= listLength) return;
-  ListedTile tile = listedTile(listed[index]);
+void refineTile(ListedTile tile) {
   FieldCascade cascade = field.cascades[tile.cascade];
-  if (!isBandTile(tiles[tile.word])) return;
   load(tile, cascade);
   float sheetHalf = cascade.texel.w * cascade.texel.x;
   for (uint i = gl_LocalInvocationIndex; i < openCount; i += OPEN_THREADS) {
@@ -103,11 +100,22 @@ void main() {
     vec3 point = texelCenter(cascade, lattice);
     Nearest nearest = Nearest(FIELD_NONE, 1e30);
     // The texel itself, then its neighbours along the axes.
-    int count = (apron[own] & FIELD_ID_KEYED) == 0u ? 7 : 1;
-    for (int n = 0; n < count; ++n) considerAt(own + (n == 0 ? 0 : faceStep(n - 1)), point, sheetHalf, nearest);
+    considerAt(own, point, sheetHalf, nearest);
+    bool isKeyed = (apron[own] & FIELD_ID_KEYED) != 0u;
+    for (int step = 1; step < APRON * APRON * APRON && !isKeyed; step *= APRON) {
+      considerAt(own - step, point, sheetHalf, nearest);
+      considerAt(own + step, point, sheetHalf, nearest);
+    }
     if (nearest.rank > KEPT_TEXELS * cascade.texel.x)
       nodes[texelWord(cascade, lattice)] = 0u;
     else
       storeNearest(tile.cascade, lattice, point, nearest);
+  }
+}
+
+void main() {
+  for (uint at = gl_WorkGroupID.x; at < bandCount; at += gl_NumWorkGroups.x) {
+    refineTile(listedTile(band[at]));
+    barrier();
   }
 }

@@ -10,7 +10,7 @@ layout(std430, binding = kFieldTileBinding) buffer TileBlock { FieldTile tiles[]
 
 uniform uint listLength;
 
-shared uint found; // 1: a seed lies in the tile
+shared uint found[2]; // a bit a coarse texel: a seed
 
 // No surface passes farther from all texel centres; half a sheet more is the rank of closed ones.
 const float TOUCHED_TEXELS = 0.8660255 + 0.5 + 0.01;
@@ -21,14 +21,14 @@ void main() {
   ListedTile tile = listedTile(listed[index]);
   FieldCascade cascade = field.cascades[tile.cascade];
   ivec3 coarse = tile.firstTexel / COARSE + cubeIndex(int(gl_LocalInvocationIndex), COARSE_TILE);
-  if (gl_LocalInvocationIndex == 0u) found = 0u;
+  if (gl_LocalInvocationIndex < 2u) found[gl_LocalInvocationIndex] = 0u;
   barrier();
   uint key = FIELD_NONE;
   for (int i = 0; i < 8; ++i)
     key = min(key, keys[texelWord(cascade, coarse * COARSE + ivec3(i & 1, i >> 1 & 1, i >> 2))]);
   bool isTouched = key != FIELD_NONE && rankTexelsOfKey(key) <= TOUCHED_TEXELS;
   seeds[coarseWord(cascade, coarse)] = isTouched ? triangleOfKey(key) : FIELD_NONE;
-  if (isTouched) found = 1u;
+  if (isTouched) atomicOr(found[gl_LocalInvocationIndex >> 5u], 1u << (gl_LocalInvocationIndex & 31u));
   barrier();
-  if (gl_LocalInvocationIndex == 0u) tiles[tile.word].found.x = found;
+  if (gl_LocalInvocationIndex == 0u) tiles[tile.word].found.xy = uvec2(found[0], found[1]);
 }

@@ -1,4 +1,5 @@
-// Each triangle leaves its keys in the texels around it; parts of large ones are listed for field_splat_parts.
+// Each triangle leaves its keys in the texels around it: a thread a triangle, while it has few, so that none waits long
+// for the largest of many. Larger ones are listed for field_splat_parts.
 #include "lib/field_splat.glsl"
 
 layout(local_size_x = GATHER_TRIANGLES) in;
@@ -7,46 +8,82 @@ layout(std430, binding = kFieldListBinding) readonly buffer SplatBlock { FieldSp
 layout(std430, binding = kFieldSplatBinding) buffer PartBlock {
   uint partCount;
   uint unusedA, unusedB, unusedC;
-  uvec2 parts[]; // triangle; cascade << 15 | part, five bits an axis
+  uvec2 parts[]; // triangle; cascade << SPLAT_CASCADE_SHIFT | part
 };
 
 uniform uint listLength;
 
-const float MOST_TEXELS_OF_ONE_THREAD = 400.0;
+const float MOST_TEXELS_OF_ONE_THREAD = 128.0;
+// From a part's centre to its outermost texel centres, sqrt(3) * 7.5, and rounding.
+const float PART_HALF_DIAGONAL = 12.990382 + 0.01;
 
-void listParts(uint cascadeIndex, FieldCascade cascade, SplatTriangle t, ivec3 lower, ivec3 upper) {
+shared uint larger[GATHER_TRIANGLES];
+shared uint largerCount;
+
+// One loop: threads of unlike boxes go through it together.
+void splatWhole(FieldCascade cascade, SplatTriangle t, SplatBox box) {
+  ivec3 at = box.lower;
+  int endX = box.lower.x + box.alongX, endY = box.lower.y + box.plane / box.alongX;
+  for (int i = 0; i < box.count; ++i) {
+    splatAt(cascade, t, at);
+    if (++at.x < endX) continue;
+    at.x = box.lower.x;
+    if (++at.y == endY) at.y = box.lower.y, ++at.z;
+  }
+}
+
+void splatTriangleOf(uint cascadeIndex, FieldCascade cascade, uint number) {
+  if ((triangles[number].codes.w & WORLD_TRIANGLE_EMPTY) != 0u) return;
+  SplatTriangle t = splatTriangle(cascade, number);
+  SplatBox box = splatPart(cascadeIndex, cascade, t, SPLAT_WHOLE);
+  if (box.count == 0) return;
+  // Whatever is made anew of what it reaches: the same triangle goes the same way, to the same keys in every bit.
+  if (reachedTexels(t) > MOST_TEXELS_OF_ONE_THREAD)
+    larger[atomicAdd(largerCount, 1u)] = number;
+  else
+    splatWhole(cascade, t, box);
+}
+
+void listPart(uint cascadeIndex, FieldCascade cascade, SplatTriangle t, uint part) {
+  uint place = atomicAdd(partCount, 1u);
+  if (place < SPLAT_PART_CAPACITY) {
+    parts[place] = uvec2(t.number, cascadeIndex << SPLAT_CASCADE_SHIFT | part);
+    return;
+  }
+  splatWhole(cascade, t, splatPart(cascadeIndex, cascade, t, part)); // slower, but as right
+}
+
+// The group's threads take a part each.
+void listParts(uint cascadeIndex, FieldCascade cascade, SplatTriangle t) {
   const int side = int(SPLAT_PART_TEXELS);
+  uint thread = gl_LocalInvocationIndex;
+  if (reachedTexels(t) <= float(side * side * side)) {
+    if (thread == 0u) listPart(cascadeIndex, cascade, t, SPLAT_WHOLE);
+    return;
+  }
+  ivec3 lower, upper;
+  splatBounds(cascadeIndex, t, lower, upper);
   // A part's half extent along the normal, and the reach of the keys.
-  float reach = 0.5 * float(side) * dot(abs(t.normal), vec3(1.0)) + SPLAT_TEXELS;
-  ivec3 first = (lower - cascade.window.xyz) / side, last = (upper - cascade.window.xyz) / side;
-  for (int z = first.z; z <= last.z; ++z)
-    for (int y = first.y; y <= last.y; ++y)
-      for (int x = first.x; x <= last.x; ++x) {
-        ivec3 corner = cascade.window.xyz + ivec3(x, y, z) * side;
-        if (abs(dot(vec3(corner) + 0.5 * float(side) - t.origin, t.normal)) > reach) continue;
-        uint place = atomicAdd(partCount, 1u);
-        if (place < SPLAT_PART_CAPACITY)
-          parts[place] = uvec2(t.number, cascadeIndex << 15 | uint(z) << 10 | uint(y) << 5 | uint(x));
-        else // slower, but as right
-          splatBox(cascade, t, max(lower, corner), min(upper, corner + side - 1));
-      }
+  float thick = 0.5 * float(side) * dot(abs(t.normal), vec3(1.0)) + SPLAT_TEXELS;
+  float around = PART_HALF_DIAGONAL + SPLAT_TEXELS;
+  ivec3 first = (lower - cascade.window.xyz) / side, count = (upper - cascade.window.xyz) / side - first + 1;
+  for (int i = int(thread); i < count.x * count.y * count.z; i += int(GATHER_TRIANGLES)) {
+    ivec3 part = first + ivec3(i % count.x, i / count.x % count.y, i / (count.x * count.y));
+    vec3 center = inFrame(t, vec3(cascade.window.xyz + part * side) + 0.5 * float(side));
+    if (abs(center.z) <= thick && squaredDistance(t, center) <= around * around)
+      listPart(cascadeIndex, cascade, t, uint(part.z) << 10 | uint(part.y) << 5 | uint(part.x));
+  }
 }
 
 void main() {
   uint index = listIndex();
-  if (index >= listLength || gl_LocalInvocationIndex >= splats[index].count) return;
-  uint cascadeIndex = splats[index].cascade;
-  FieldCascade cascade = field.cascades[cascadeIndex];
-  uint number = splats[index].firstTriangle + gl_LocalInvocationIndex;
-  if ((triangles[number].codes.w & WORLD_TRIANGLE_EMPTY) != 0u) return;
-  SplatTriangle t = splatTriangle(cascade, number);
-  ivec3 lower, upper;
-  splatBounds(cascadeIndex, t, lower, upper);
-  if (any(greaterThan(lower, upper))) return;
-  // Whatever is made anew of what it reaches: the same triangle goes the same way, to the same keys in every bit.
-  vec3 extent = t.high - t.low + 2.0 * SPLAT_TEXELS;
-  if (extent.x * extent.y * extent.z > MOST_TEXELS_OF_ONE_THREAD)
-    listParts(cascadeIndex, cascade, t, lower, upper);
-  else
-    splatBox(cascade, t, lower, upper);
+  if (index >= listLength) return;
+  FieldSplat splat = splats[index];
+  FieldCascade cascade = field.cascades[splat.cascade];
+  uint thread = gl_LocalInvocationIndex;
+  if (thread == 0u) largerCount = 0u;
+  barrier();
+  if (thread < splat.count) splatTriangleOf(splat.cascade, cascade, splat.firstTriangle + thread);
+  barrier();
+  for (uint i = 0u; i < largerCount; ++i) listParts(splat.cascade, cascade, splatTriangle(cascade, larger[i]));
 }

@@ -1,44 +1,120 @@
-// One sweep over the coarse texels of a tile; run for x, y and z. Along the axis whole tiles are asked, the nearest
-// first, so that one address serves four texels.
+// The nearest seed of each coarse texel of a tile: in its plane across z first, by the bits of the tiles around; then,
+// in a run of its own, along z from what the planes have. Ties go to the lower offset.
 #include "lib/field_grid.glsl"
 #include "lib/field_sweep.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
-layout(std430, binding = kFieldSeedBinding) readonly buffer SeedBlock { uint seeds[]; };
-// A texel's own bits change while neighbours read the bits of the sweep before, which stay the same.
+// A texel's own bits change while neighbours read those of its plane, which stay the same.
 layout(std430, binding = kFieldSweepBinding) buffer SweepBlock { uint sweeps[]; };
-
 layout(std430, binding = kFieldTileBinding) buffer TileBlock { FieldTile tiles[]; };
+layout(std430, binding = kFieldNewBandBinding) buffer BandBlock { uint bandCount; };
 
 uniform uint listLength;
-uniform int axis;
+uniform bool isDepth; // the second run
 
-const int MOST_TILES_AWAY = 3; // for the longest reach, fieldSweepReach(16)
-// Of the tiles from MOST_TILES_AWAY before to as many behind: whether anything is to be found there.
-shared bool isFull[2 * MOST_TILES_AWAY + 1];
-shared uint found; // by this tile
+const int MOST_TILES_AWAY = 3; // for the longest reach
+const int TILES_ACROSS = 2 * MOST_TILES_AWAY + 1;
+shared uvec2 seedBits[TILES_ACROSS * TILES_ACROSS];
+// Of each row along x, those of a plane one after the other: a bit a coarse texel, the tile's own from bit 12 on.
+shared uint rows[COARSE_TILE][COARSE_TILE * TILES_ACROSS];
+shared bool isFull[TILES_ACROSS]; // any seed in the tiles that share y, or z
+shared uint found;
 
-const int NOTHING = 1 << 20; // no seed within reach
+const uint NOTHING = 1u << 20;
 
-struct Best {
-  int cost; // squared coarse texels
-  int offset;
-  uint word; // what the sweeps before found there
-};
+// Word of the tile that lies so many tiles from one in the list.
+uint tileWordAway(ListedTile tile, FieldCascade cascade, ivec3 away, out bool isHere) {
+  ivec3 other = (tile.firstTexel >> 3) + away;
+  isHere = isInWindow(cascade, other << 3);
+  return cascade.buffers.z + tileSlot(cascade, other);
+}
 
-// The four coarse texels from `first` on, `stride` words apart, the first of them `offset` away.
-void askTile(uint first, uint stride, int offset, int reach, inout Best best) {
-  for (int i = 0; i < COARSE_TILE; ++i) {
-    uint word = first + uint(i) * stride;
-    uint found = axis == 0 ? 0u : sweeps[word];
-    int before = axis == 0 ? (seeds[word] != FIELD_NONE ? 0 : NOTHING) : sweepCost(found, axis);
-    int away = offset + i, cost = before + away * away;
-    // Ties go to the lower offset, whatever the order of asking.
-    if (abs(away) > reach || cost > best.cost || (cost == best.cost && away >= best.offset)) continue;
-    best = Best(cost, away, found);
+void loadPlane(ListedTile tile, FieldCascade cascade) {
+  int thread = int(gl_LocalInvocationIndex);
+  if (thread < TILES_ACROSS) isFull[thread] = false;
+  barrier();
+  if (thread < TILES_ACROSS * TILES_ACROSS) {
+    bool isHere;
+    uint word = tileWordAway(tile, cascade, ivec3(thread % TILES_ACROSS, thread / TILES_ACROSS, 0) - ivec3(MOST_TILES_AWAY, MOST_TILES_AWAY, 0), isHere);
+    uvec2 bits = isHere ? tiles[word].found.xy : uvec2(0u);
+    seedBits[thread] = bits;
+    if ((bits.x | bits.y) != 0u) isFull[thread / TILES_ACROSS] = true;
   }
+  barrier();
+  for (int i = thread; i < COARSE_TILE * COARSE_TILE * TILES_ACROSS; i += 64) {
+    int z = i & 3, y = i >> 2, shift = (z & 1) * 16 + (y & 3) * 4;
+    uint row = 0u;
+    for (int x = 0; x < TILES_ACROSS; ++x) {
+      uvec2 bits = seedBits[(y >> 2) * TILES_ACROSS + x];
+      row |= ((z < 2 ? bits.x : bits.y) >> shift & 15u) << (4 * x);
+    }
+    rows[z][y] = row;
+  }
+  barrier();
+}
+
+void sweepPlane(ListedTile tile, FieldCascade cascade, uint own, int reach) {
+  loadPlane(tile, cascade);
+  ivec3 at = cubeIndex(int(gl_LocalInvocationIndex), COARSE_TILE);
+  int middle = at.x + MOST_TILES_AWAY * COARSE_TILE, row = at.y + MOST_TILES_AWAY * COARSE_TILE;
+  uint within = (1u << (2 * reach + 1)) - 1u << (middle - reach), lower = (2u << middle) - 1u;
+  uint best = NOTHING << 10u; // cost, then the offset: what is least wins
+  for (int k = 0; k < 2 * MOST_TILES_AWAY + 1; ++k) {
+    int away = (k + 1 >> 1) * ((k & 1) == 0 ? 1 : -1);
+    int least = away < 0 ? at.y + 1 + (-away - 1) * COARSE_TILE : away * COARSE_TILE - at.y;
+    if (!isFull[away + MOST_TILES_AWAY] || (away != 0 && uint(least * least) > best >> 10u)) continue;
+    for (int i = 0; i < COARSE_TILE; ++i) {
+      int y = (away + MOST_TILES_AWAY) * COARSE_TILE + i, dy = y - row;
+      uint bits = rows[at.z][y] & within;
+      if (bits == 0u || abs(dy) > reach) continue;
+      int before = findMSB(bits & lower), behind = findLSB(bits >> middle);
+      int dx = before < 0 || (behind >= 0 && behind < middle - before) ? behind : before - middle;
+      best = min(best, planeWord(uint(dx * dx + dy * dy), ivec2(dx, dy)));
+    }
+  }
+  bool isFound = best < NOTHING << 10u;
+  sweeps[own] = isFound ? best : NO_SEED_IN_PLANE << 10u;
+  if (isFound) found = 1u;
+  barrier();
+  if (gl_LocalInvocationIndex == 0u) tiles[tile.word].found.z = found;
+}
+
+void sweepDepth(ListedTile tile, FieldCascade cascade, uint own, int reach) {
+  int thread = int(gl_LocalInvocationIndex);
+  if (thread < TILES_ACROSS) {
+    bool isHere;
+    uint word = tileWordAway(tile, cascade, ivec3(0, 0, thread - MOST_TILES_AWAY), isHere);
+    isFull[thread] = isHere && tiles[word].found.z != 0u;
+  }
+  barrier();
+  int at = thread / (COARSE_TILE * COARSE_TILE);
+  uint first = own - uint(at * COARSE_TILE * COARSE_TILE);
+  int count = cascade.window.w >> 3, slot = (tile.firstTexel.z >> 3) & (count - 1);
+  uint best = NOTHING << 5u; // cost, then the offset along z
+  for (int k = 0; k < 2 * MOST_TILES_AWAY + 1; ++k) {
+    int away = (k + 1 >> 1) * ((k & 1) == 0 ? 1 : -1);
+    int least = away < 0 ? at + 1 + (-away - 1) * COARSE_TILE : away * COARSE_TILE - at;
+    if (!isFull[away + MOST_TILES_AWAY] || (away != 0 && uint(least * least) > best >> 5u)) continue;
+    int slots = ((slot + away) & (count - 1)) - slot;
+    uint there = first + uint(slots * count * count) * COARSE_TILE_TEXELS;
+    uint words[COARSE_TILE];
+    for (int i = 0; i < COARSE_TILE; ++i) words[i] = planeCost(sweeps[there + uint(i * COARSE_TILE * COARSE_TILE)]);
+    for (int i = 0; i < COARSE_TILE; ++i) {
+      int dz = away * COARSE_TILE + i - at;
+      bool isSeen = words[i] != NO_SEED_IN_PLANE && abs(dz) <= reach;
+      if (isSeen) best = min(best, words[i] + uint(dz * dz) << 5u | uint(dz + SWEEP_REACH));
+    }
+  }
+  uint word = sweeps[own] & (1u << SWEEP_PLANE_BITS) - 1u;
+  if (best < NOTHING << 5u) {
+    int dz = int(best & 31u) - SWEEP_REACH, z = at + dz;
+    int slots = ((slot + (z >> 2)) & (count - 1)) - slot;
+    uint there = first + uint(slots * count * count) * COARSE_TILE_TEXELS + uint((z & 3) * COARSE_TILE * COARSE_TILE);
+    word = seedWord(word, ivec3(planeOffset(sweeps[there]), dz));
+  }
+  sweeps[own] = word;
 }
 
 void main() {
@@ -46,46 +122,10 @@ void main() {
   if (index >= listLength) return;
   ListedTile tile = listedTile(listed[index]);
   FieldCascade cascade = field.cascades[tile.cascade];
-  ivec3 inTile = cubeIndex(int(gl_LocalInvocationIndex), COARSE_TILE);
-  uint own = coarseWord(cascade, tile.firstTexel / COARSE + inTile);
-  uint stride = axis == 0 ? 1u : axis == 1 ? uint(COARSE_TILE) : uint(COARSE_TILE * COARSE_TILE);
-  int at = inTile[axis];
-  uint first = own - uint(at) * stride;
-
-  int count = cascade.window.w >> 3, inWindow = (tile.firstTexel[axis] - cascade.window[axis]) >> 3;
-  int slot = (tile.firstTexel[axis] >> 3) & (count - 1);
-  int slotStride = axis == 0 ? 1 : axis == 1 ? count : count * count;
   if (gl_LocalInvocationIndex == 0u) found = 0u;
-  if (gl_LocalInvocationIndex <= 2u * uint(MOST_TILES_AWAY)) {
-    int away = int(gl_LocalInvocationIndex) - MOST_TILES_AWAY, other = inWindow + away;
-    int word = int(tile.word) + (((slot + away) & (count - 1)) - slot) * slotStride;
-    isFull[gl_LocalInvocationIndex] = other >= 0 && other < count && tiles[word].found[axis] != 0u;
-  }
-  barrier();
-
+  if (index == 0u && gl_LocalInvocationIndex == 0u) bandCount = 0u; // field_candidates will add to it
+  uint own = coarseWord(cascade, tile.firstTexel / COARSE) + gl_LocalInvocationIndex;
   int reach = sweepReach(cascade);
-  Best best = Best(NOTHING, 0, 0u);
-  if (isFull[MOST_TILES_AWAY]) askTile(first, stride, -at, reach, best);
-  for (int away = 1; away <= MOST_TILES_AWAY; ++away) {
-    // Of the tiles at this distance the nearest texels of all.
-    int before = at + 1 + (away - 1) * COARSE_TILE, behind = away * COARSE_TILE - at;
-    int least = min(before, behind);
-    if (least > reach || least * least > best.cost) break;
-    for (int side = -1; side <= 1; side += 2) {
-      if (!isFull[MOST_TILES_AWAY + side * away]) continue;
-      int slots = ((slot + side * away) & (count - 1)) - slot;
-      uint there = first + uint(slots * slotStride) * COARSE_TILE_TEXELS;
-      askTile(there, stride, side * away * COARSE_TILE - at, reach, best);
-    }
-  }
-  uint word = axis == 0 ? 0u : sweeps[own];
-  if (best.cost < NOTHING) {
-    word = sweepResult(word, best.word, best.offset, axis);
-    found = 1u;
-  } else { // nothing of this or a later sweep
-    word &= axis == 1 ? SWEEP_MASK : axis == 2 ? ~(SWEEP_MASK << SWEEP_Z_SHIFT) : 0u;
-  }
-  sweeps[own] = word;
-  barrier();
-  if (axis < 2 && gl_LocalInvocationIndex == 0u) tiles[tile.word].found[axis + 1] = found;
+  if (!isDepth) sweepPlane(tile, cascade, own, reach);
+  else sweepDepth(tile, cascade, own, reach);
 }

@@ -1,7 +1,8 @@
 // Pseudonormals after Baerentzen and Aanaes, Signed Distance Computation Using the Angle Weighted Pseudonormal, 2005. Of
 // an edge: the sum of both faces' unit normals; of a vertex: the sum over its fan, weighted by the angle there. A group
 // has triangles, whose edges it codes, or welded vertices, whose fans' corners it codes. Slivers, which have no normal,
-// pass on those of their neighbours: with a corner in the middle of a neighbour's edge they stand for that neighbour.
+// pass on those of their neighbours: with a corner in the middle of a neighbour's edge they stand for that neighbour. Sheets
+// have none: nobody asks on which side of one a point lies.
 #include "lib/octahedral.glsl"
 #include "lib/triangle_distance.glsl"
 #include "shared/world_field_params.h"
@@ -38,6 +39,8 @@ uint codeOf(vec3 normal) {
 
 // Mirrored rows have b and c exchanged, so edge ab lies where ca was.
 uint edgeInRow(uint edge, bool mirrored) { return mirrored ? 2u - edge : edge; }
+
+uint cornerInRow(uint corner, bool mirrored) { return mirrored && corner > 0u ? 3u - corner : corner; }
 
 vec3 normalBeyond(WorldInstance instance, uint triangle, uint edge) {
   uint beyond = topology[instance.triangles.z + triangle].neighbours[edge];
@@ -127,15 +130,14 @@ uint edgeCode(WorldInstance instance, bool mirrored, uint triangle, uint edge) {
   vec3 own = normalSeenFrom(instance, mirrored, triangle, edge);
   if (beyond == NO_NEIGHBOUR) return codeOf(own);
   vec3 other = normalSeenFrom(instance, mirrored, beyond, edgeTowards(instance, triangle, beyond));
-  bool isClosed = (worldTriangles[instance.triangles.x + triangle].codes.w & WORLD_TRIANGLE_CLOSED) != 0u;
-  if (dot(own, other) < FOLDED_COSINE && isClosed) return foldedCode(instance, mirrored, triangle, edge, own, other);
+  if (dot(own, other) < FOLDED_COSINE) return foldedCode(instance, mirrored, triangle, edge, own, other);
   vec3 sum = own + other;
-  // Sheets have no sides: where both faces of one fold onto each other any direction will do.
   return codeOf(dot(sum, sum) > 1e-12 ? sum : own);
 }
 
 void codeEdges(WorldInstance instance, bool mirrored, uint triangle) {
   uint row = instance.triangles.x + triangle;
+  if ((worldTriangles[row].codes.w & WORLD_TRIANGLE_CLOSED) == 0u) return; // sheets have no sides
   for (uint edge = 0u; edge < 3u; ++edge) {
     uint code = edgeCode(instance, mirrored, triangle, edge);
     uint place = edgeInRow(edge, mirrored);
@@ -145,18 +147,41 @@ void codeEdges(WorldInstance instance, bool mirrored, uint triangle) {
   }
 }
 
+// What a corner of a fan gives: the face's normal, and the angle there.
+vec4 faceOfFan(WorldInstance instance, bool mirrored, uint fanCorner) {
+  WorldFace face = worldFaces[instance.triangles.x + (fanCorner >> 2u)];
+  uint corner = cornerInRow(fanCorner & 3u, mirrored);
+  return vec4(face.normal.xyz, corner == 0u ? face.angles.x : corner == 1u ? face.angles.y : face.angles.z);
+}
+
+bool isSliver(vec4 face) { return dot(face.xyz, face.xyz) == 0.0; }
+
+// The four corners of a fan from `first` on, as faceOfFan; nothing beyond the fan's end. Together, because a fan of
+// hundreds would wait for one after the other.
+mat4 facesOfFan(WorldInstance instance, bool mirrored, uint first, uint end) {
+  uvec4 at = min(uvec4(first) + uvec4(0u, 1u, 2u, 3u), uvec4(end - 1u));
+  uvec4 corners = uvec4(fanCorners[at.x], fanCorners[at.y], fanCorners[at.z], fanCorners[at.w]);
+  vec4 a = faceOfFan(instance, mirrored, corners.x), b = faceOfFan(instance, mirrored, corners.y);
+  vec4 c = faceOfFan(instance, mirrored, corners.z), d = faceOfFan(instance, mirrored, corners.w);
+  if (isSliver(a)) a.xyz = normalSeenFrom(instance, mirrored, corners.x >> 2u, 3u);
+  if (isSliver(b)) b.xyz = normalSeenFrom(instance, mirrored, corners.y >> 2u, 3u);
+  if (isSliver(c)) c.xyz = normalSeenFrom(instance, mirrored, corners.z >> 2u, 3u);
+  if (isSliver(d)) d.xyz = normalSeenFrom(instance, mirrored, corners.w >> 2u, 3u);
+  vec4 isHere = vec4(lessThan(uvec4(first) + uvec4(0u, 1u, 2u, 3u), uvec4(end)));
+  return mat4(a * vec4(vec3(1.0), isHere.x), b * vec4(vec3(1.0), isHere.y), c * vec4(vec3(1.0), isHere.z),
+              d * vec4(vec3(1.0), isHere.w));
+}
+
 void codeVertex(WorldInstance instance, bool mirrored, uint vertex) {
   uint begin = fanStarts[instance.vertices.z + vertex], end = fanStarts[instance.vertices.z + vertex + 1u];
   vec3 sum = vec3(0.0);
-  for (uint i = begin; i < end; ++i) {
-    uint row = instance.triangles.x + (fanCorners[i] >> 2u), corner = fanCorners[i] & 3u;
-    if (mirrored && corner > 0u) corner = 3u - corner;
-    sum += normalSeenFrom(instance, mirrored, fanCorners[i] >> 2u, 3u) * worldFaces[row].angles[corner];
+  for (uint first = begin; first < end; first += 4u) {
+    mat4 faces = facesOfFan(instance, mirrored, first, end);
+    sum += faces[0].xyz * faces[0].w + faces[1].xyz * faces[1].w + faces[2].xyz * faces[2].w + faces[3].xyz * faces[3].w;
   }
   uint code = codeOf(sum);
   for (uint i = begin; i < end; ++i) {
-    uint row = instance.triangles.x + (fanCorners[i] >> 2u), corner = fanCorners[i] & 3u;
-    if (mirrored && corner > 0u) corner = 3u - corner;
+    uint row = instance.triangles.x + (fanCorners[i] >> 2u), corner = cornerInRow(fanCorners[i] & 3u, mirrored);
     if (corner == 0u) worldTriangles[row].a.w = uintBitsToFloat(code);
     else if (corner == 1u) worldTriangles[row].b.w = uintBitsToFloat(code);
     else worldTriangles[row].c.w = uintBitsToFloat(code);

@@ -68,7 +68,7 @@ struct FieldTile {
   uint nearest;      // triangle nearest to any of its coarse texels, or FIELD_NONE
   uint nearestBits;  // distance of the two, texels; float bits
   uint nearestTexel; // that coarse texel's number in the tile
-  uvec4 found;       // 1 where any of its coarse texels, x: is a seed; y, z: found one in the sweep along x, and y
+  uvec4 found;       // x, y: a bit a coarse texel that is a seed; z: 1 where any found one in the plane across z
 };
 SHARED_ASSERT_SIZE(FieldTile, 32)
 
@@ -94,8 +94,10 @@ struct FieldSplat {
 };
 SHARED_ASSERT_SIZE(FieldSplat, 16)
 
-// Parts of large triangles: boxes of 16^3 texels, counted from the window's first texel.
+// Parts of large triangles: boxes of 16^3 texels, counted from the window's first texel, five bits an axis.
 SHARED_CONST uint SPLAT_PART_TEXELS = 16;
+SHARED_CONST uint SPLAT_WHOLE = 0x8000; // in place of a part: the triangle whole
+SHARED_CONST uint SPLAT_CASCADE_SHIFT = 16;
 SHARED_CONST uint SPLAT_PART_CAPACITY = 65536;
 
 SHARED_END

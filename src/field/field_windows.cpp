@@ -105,8 +105,7 @@ public:
   CascadeUpdate(std::size_t cascade, const FieldWindow& window)
       : window_(window),
         keys_(cascade, window),
-        rows_(cascade, window),
-        columns_(cascade, window),
+        planes_(cascade, window),
         depths_(cascade, window),
         candidates_(cascade, window),
         values_(cascade, window) {}
@@ -123,16 +122,14 @@ public:
     candidates_.markTiles(tiles);
     values_.markTiles(tiles);
     depths_.markTiles(tiles.expanded(1)); // coarse neighbours are read as well
-    columns_.markTiles(tiles.expanded(glm::ivec3(1, 1, 1 + reach)));
-    rows_.markTiles(tiles.expanded(glm::ivec3(1, 1 + reach, 1 + reach)));
+    planes_.markTiles(tiles.expanded(glm::ivec3(1, 1, 1 + reach)));
   }
   void changeObjects(const LatticeBox& texels) {
     values_.markTiles(tilesOf(texels.expanded(window_.rangeTexels() + 1)));
   }
   void append(FieldUpdate& update) const {
     keys_.append(update.keys);
-    rows_.append(update.rows);
-    columns_.append(update.columns);
+    planes_.append(update.planes);
     depths_.append(update.depths);
     candidates_.append(update.candidates);
     values_.append(update.values);
@@ -142,7 +139,7 @@ private:
   static LatticeBox tilesOf(const LatticeBox& texels) { return {tileOf(texels.min), tileOf(texels.max)}; }
 
   const FieldWindow& window_;
-  TileFlags keys_, rows_, columns_, depths_, candidates_, values_;
+  TileFlags keys_, planes_, depths_, candidates_, values_;
 };
 
 } // namespace

@@ -51,10 +51,9 @@ double fieldTexelSize(const FieldShape& shape, const Box& boundsAnchored);
 /// Tiles to work on, as words of fieldTileWord, ascending. Each list is what one stage must write so that the next
 /// finds what it reads.
 struct FieldUpdate {
-  std::vector<std::uint32_t> keys; ///< surface keys: what moved, what it left, what scrolled in
-  std::vector<std::uint32_t> rows; ///< sweeps of the coarse seeds along x, then y, then z
-  std::vector<std::uint32_t> columns;
-  std::vector<std::uint32_t> depths;
+  std::vector<std::uint32_t> keys;       ///< surface keys: what moved, what it left, what scrolled in
+  std::vector<std::uint32_t> planes;     ///< nearest coarse seeds in planes across z
+  std::vector<std::uint32_t> depths;     ///< and of all
   std::vector<std::uint32_t> candidates; ///< nearest triangles: all that the changed keys can reach
   std::vector<std::uint32_t> values;     ///< distances: candidates, and what moving SDF objects reach
 

@@ -31,6 +31,23 @@ void appendRows(const Scene& scene, const MeshPool& pool, int mesh, const Surfac
   }
 }
 
+// Of closed surfaces alone: sheets have no sides, so nobody asks for their pseudonormals. A fan's triangles hang
+// together by their edges, so one tells of all. returns how many
+std::uint32_t appendClosedFans(const SurfaceTopology& topology, std::vector<std::uint32_t>& starts,
+                               std::vector<std::uint32_t>& corners) {
+  std::uint32_t count = 0;
+  for (std::uint32_t vertex = 0; vertex < topology.vertexCount; ++vertex) {
+    const auto first = topology.fanCorners.begin() + topology.fanStarts[vertex];
+    const auto last = topology.fanCorners.begin() + topology.fanStarts[vertex + 1];
+    if (first == last || !topology.isClosed(*first >> 2)) continue;
+    starts.push_back(static_cast<std::uint32_t>(corners.size()));
+    corners.insert(corners.end(), first, last);
+    ++count;
+  }
+  starts.push_back(static_cast<std::uint32_t>(corners.size()));
+  return count;
+}
+
 } // namespace
 
 TopologyTable::TopologyTable(const Scene& scene, const MeshPool& pool, const std::vector<bool>& isUsed)
@@ -43,10 +60,8 @@ TopologyTable::TopologyTable(const Scene& scene, const MeshPool& pool, const std
     if (rows.size() + topology.triangleCount() > kMostRows)
       throw Failure("world field: the scene's meshes have more than 2^28 triangles");
     meshes_[m] = {static_cast<std::uint32_t>(rows.size()), static_cast<std::uint32_t>(topology.triangleCount()),
-                  static_cast<std::uint32_t>(starts.size()), topology.vertexCount};
-    for (const std::uint32_t start : topology.fanStarts)
-      starts.push_back(static_cast<std::uint32_t>(corners.size()) + start);
-    corners.insert(corners.end(), topology.fanCorners.begin(), topology.fanCorners.end());
+                  static_cast<std::uint32_t>(starts.size()), 0};
+    meshes_[m].vertexCount = appendClosedFans(topology, starts, corners);
     appendRows(scene, pool, static_cast<int>(m), topology, rows);
   }
   triangles_ = Buffer("world_topology", rows);

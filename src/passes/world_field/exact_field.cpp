@@ -19,9 +19,8 @@ std::size_t texelsOf(const FieldWindow& window) {
   return static_cast<std::size_t>(window.texels) * window.texels * window.texels;
 }
 
-constexpr std::array<const char*, ExactField::kLists> kListLabels = {"field_key_tiles",       "field_row_tiles",
-                                                                     "field_column_tiles",    "field_depth_tiles",
-                                                                     "field_candidate_tiles", "field_value_tiles"};
+constexpr std::array<const char*, ExactField::kLists> kListLabels = {
+    "field_key_tiles", "field_plane_tiles", "field_depth_tiles", "field_candidate_tiles", "field_value_tiles"};
 
 } // namespace
 
@@ -54,6 +53,8 @@ bool ExactField::fit(const std::vector<FieldWindow>& windows) {
   sides_ = Buffer("field_sides", tileWords);
   sides_.clear(shared::FIELD_SIDE_UNKNOWN);
   flips_ = Buffer("field_flips", 16 + tileWords);
+  band_ = Buffer("field_band", 4 + tileWords);
+  band_.clear(0);
   for (std::size_t i = 0; i < windows.size(); ++i) {
     Texture& texture = distances_.emplace_back(
         Texture::make3D(fmt::format("field_distance_{}", i), GL_R16F, glm::ivec3(windows[i].texels)));
@@ -74,8 +75,7 @@ void ExactField::uploadList(List list, const std::vector<std::uint32_t>& words) 
 void ExactField::prepare(const std::vector<FieldWindow>& windows, const FieldWork& work) {
   windows_ = windows;
   uploadList(List::Keys, work.tiles.keys);
-  uploadList(List::Rows, work.tiles.rows);
-  uploadList(List::Columns, work.tiles.columns);
+  uploadList(List::Planes, work.tiles.planes);
   uploadList(List::Depths, work.tiles.depths);
   uploadList(List::Candidates, work.tiles.candidates);
   uploadList(List::Values, work.tiles.values);
@@ -113,7 +113,7 @@ std::size_t ExactField::bytes() const {
   for (const Texture& texture : distances_) sum += texture.bytes();
   for (const Buffer& list : lists_) sum += list.bytes();
   for (const Buffer* buffer : {&params_, &splats_, &parts_, &spheres_, &keys_, &ids_, &nodes_, &seeds_, &sweeps_,
-                               &candidates_, &tiles_, &sides_, &flips_})
+                               &candidates_, &tiles_, &sides_, &flips_, &band_})
     sum += buffer->bytes();
   return sum;
 }

@@ -26,8 +26,8 @@ struct FieldWork {
 class ExactField {
 public:
   /// Tile lists of one update, in the order of its stages.
-  enum class List : std::uint8_t { Keys, Rows, Columns, Depths, Candidates, Values };
-  static constexpr std::size_t kLists = 6;
+  enum class List : std::uint8_t { Keys, Planes, Depths, Candidates, Values };
+  static constexpr std::size_t kLists = 5;
 
   ExactField();
 
@@ -62,12 +62,12 @@ public:
   void bindCandidates() const { candidates_.bindStorage(shared::kFieldCandidateBinding); }
   void bindNodes() const { nodes_.bindStorage(shared::kFieldNodeBinding); }
   void bindTiles() const { tiles_.bindStorage(shared::kFieldTileBinding); }
-  void clearParts() { parts_.clear(0, 0, 16); }
   void bindSides() const { sides_.bindStorage(shared::kFieldSideBinding); }
   /// Tiles whose side was another one before this update: the groups of a dispatch, their count, their words.
   const Buffer& flips() const { return flips_; }
   void clearFlips() { flips_.clear(0, 0, 16); }
   std::uint32_t tileCount() const { return static_cast<std::uint32_t>(tiles_.bytes() / sizeof(shared::FieldTile)); }
+  const Buffer& band() const { return band_; } ///< a count, and the tiles of this update with texels near a surface
 
   std::size_t bytes() const;
 
@@ -81,7 +81,7 @@ private:
   Buffer params_, splats_, parts_, spheres_;
   Buffer keys_, ids_, nodes_;          ///< a word a texel
   Buffer seeds_, sweeps_, candidates_; ///< a word a coarse texel
-  Buffer tiles_;
+  Buffer tiles_, band_;
   Buffer sides_; ///< a word a tile: FIELD_SIDE_*
   Buffer flips_;
   std::uint32_t splatCount_ = 0, update_ = 0;

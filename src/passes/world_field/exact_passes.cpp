@@ -28,7 +28,8 @@ void dispatchList(Program& program, std::uint32_t length) {
 
 void betweenDispatches() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); }
 
-constexpr GLuint kPartGroups = 1024; // each takes parts until none is left
+// Of work whose number the GPU alone knows; each takes some until none is left.
+constexpr GLuint kPartGroups = 2048, kBandGroups = 4096;
 
 } // namespace
 
@@ -47,13 +48,12 @@ void FieldSplatPass::record(ExactField& field, const Buffer& triangles) {
   field.bindParams();
   field.bindKeys();
   field.bindTiles();
+  field.bindParts();
   field.bindList(ExactField::List::Keys);
   dispatchList(*clear_, field.lengthOf(ExactField::List::Keys));
   if (field.splatCount() == 0) return;
-  field.clearParts();
   betweenDispatches();
   triangles.bindStorage(shared::kWorldTriangleBinding);
-  field.bindParts();
   field.bindSplats();
   dispatchList(*splat_, field.splatCount());
   betweenDispatches();
@@ -73,12 +73,10 @@ PassDeclaration FieldCandidatesPass::declare() {
 }
 
 void FieldCandidatesPass::sweep(const ExactField& field) {
-  constexpr std::array<ExactField::List, 3> kSweepLists = {ExactField::List::Rows, ExactField::List::Columns,
-                                                           ExactField::List::Depths};
-  for (int axis = 0; axis < 3; ++axis) {
-    const ExactField::List list = kSweepLists[static_cast<std::size_t>(axis)];
+  for (const bool isDepth : {false, true}) {
+    const ExactField::List list = isDepth ? ExactField::List::Depths : ExactField::List::Planes;
     field.bindList(list);
-    sweep_->set("axis", axis);
+    sweep_->set("isDepth", isDepth);
     dispatchList(*sweep_, field.lengthOf(list));
     betweenDispatches();
   }
@@ -96,6 +94,7 @@ void FieldCandidatesPass::record(const ExactField& field, const Buffer& triangle
   field.bindList(ExactField::List::Keys);
   dispatchList(*seeds_, field.lengthOf(ExactField::List::Keys));
   betweenDispatches();
+  field.band().bindStorage(shared::kFieldNewBandBinding);
   sweep(field);
   field.bindList(ExactField::List::Candidates);
   dispatchList(*candidates_, field.lengthOf(ExactField::List::Candidates));
@@ -144,6 +143,15 @@ void FieldResolvePass::joinObjects(const ExactField& field, const ResidentScene&
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
 }
 
+void FieldResolvePass::resolveBand(const ExactField& field) {
+  field.band().bindStorage(shared::kFieldBandBinding);
+  for (Program* program : {evaluate_.get(), refine_.get()}) {
+    program->use();
+    glDispatchCompute(std::min(field.lengthOf(ExactField::List::Candidates), kBandGroups), 1, 1);
+    betweenDispatches();
+  }
+}
+
 void FieldResolvePass::record(ExactField& field, const Buffer& triangles, const ResidentScene& scene) {
   if (!field.hasWork()) return;
   field.bindParams();
@@ -156,10 +164,9 @@ void FieldResolvePass::record(ExactField& field, const Buffer& triangles, const 
   field.bindSides();
   for (std::size_t cascade = 0; cascade < field.windows().size(); ++cascade)
     field.distances(cascade).bindImage(static_cast<GLuint>(cascade), 0, GL_READ_WRITE);
-  field.bindList(ExactField::List::Candidates);
-  dispatchList(*evaluate_, field.lengthOf(ExactField::List::Candidates));
+  if (field.lengthOf(ExactField::List::Candidates) > 0) resolveBand(field);
   field.bindList(ExactField::List::Values);
-  for (Program* program : {refine_.get(), farValues_.get(), far_.get()}) {
+  for (Program* program : {farValues_.get(), far_.get()}) {
     betweenDispatches();
     dispatchList(*program, field.lengthOf(ExactField::List::Values));
   }

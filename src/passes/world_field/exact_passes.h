@@ -42,6 +42,7 @@ public:
   void record(ExactField& field, const Buffer& triangles, const ResidentScene& scene);
 
 private:
+  void resolveBand(const ExactField& field);
   void makeSides(ExactField& field);
   void joinObjects(const ExactField& field, const ResidentScene& scene);
 
