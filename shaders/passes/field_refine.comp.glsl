@@ -5,10 +5,15 @@
 
 layout(local_size_x = OPEN_THREADS) in;
 
+#ifdef LISTED // all tiles of a list that are of the band, not those alone whose candidates are new
+layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
+uniform uint listLength;
+#else
 layout(std430, binding = kFieldBandBinding) readonly buffer BandBlock {
   uint bandCount;
   uint band[]; // words as those of lists, in whatever order
 };
+#endif
 layout(std430, binding = kFieldIdBinding) readonly buffer IdBlock { uint ids[]; };
 
 const int APRON = int(FIELD_TILE) + 2;
@@ -114,8 +119,14 @@ void refineTile(ListedTile tile) {
 }
 
 void main() {
+#ifdef LISTED
+  if (listIndex() >= listLength) return;
+  ListedTile tile = listedTile(listed[listIndex()]);
+  if (isBandTile(tiles[tile.word])) refineTile(tile);
+#else
   for (uint at = gl_WorkGroupID.x; at < bandCount; at += gl_NumWorkGroups.x) {
     refineTile(listedTile(band[at]));
     barrier();
   }
+#endif
 }

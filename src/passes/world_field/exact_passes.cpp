@@ -103,6 +103,8 @@ void FieldCandidatesPass::record(const ExactField& field, const Buffer& triangle
 FieldResolvePass::FieldResolvePass(ShaderLibrary& shaders)
     : evaluate_(loadCompute(shaders, "passes/field_evaluate.comp.glsl")),
       refine_(loadCompute(shaders, "passes/field_refine.comp.glsl")),
+      refineListed_(shaders.load(
+          {"field_refine_listed", {{GL_COMPUTE_SHADER, "passes/field_refine.comp.glsl"}}, {{"LISTED", "1"}}, {}})),
       farValues_(loadCompute(shaders, "passes/field_far_values.comp.glsl")),
       far_(loadCompute(shaders, "passes/field_far.comp.glsl")),
       sides_(loadCompute(shaders, "passes/field_sides.comp.glsl")),
@@ -144,12 +146,23 @@ void FieldResolvePass::joinObjects(const ExactField& field, const ResidentScene&
 }
 
 void FieldResolvePass::resolveBand(const ExactField& field) {
-  field.band().bindStorage(shared::kFieldBandBinding);
-  for (Program* program : {evaluate_.get(), refine_.get()}) {
-    program->use();
-    glDispatchCompute(std::min(field.lengthOf(ExactField::List::Candidates), kBandGroups), 1, 1);
+  const std::uint32_t candidates = field.lengthOf(ExactField::List::Candidates);
+  const auto dispatchBand = [&](Program& program) {
+    if (candidates == 0) return;
+    field.band().bindStorage(shared::kFieldBandBinding);
+    program.use();
+    glDispatchCompute(std::min(candidates, kBandGroups), 1, 1);
     betweenDispatches();
+  };
+  dispatchBand(*evaluate_);
+  if (field.lengthOf(ExactField::List::Values) == candidates) {
+    dispatchBand(*refine_);
+    return;
   }
+  // Where SDF objects moved alone, values of meshes are made again from the triangles that were found before.
+  field.bindList(ExactField::List::Values);
+  dispatchList(*refineListed_, field.lengthOf(ExactField::List::Values));
+  betweenDispatches();
 }
 
 void FieldResolvePass::record(ExactField& field, const Buffer& triangles, const ResidentScene& scene) {
@@ -164,7 +177,7 @@ void FieldResolvePass::record(ExactField& field, const Buffer& triangles, const 
   field.bindSides();
   for (std::size_t cascade = 0; cascade < field.windows().size(); ++cascade)
     field.distances(cascade).bindImage(static_cast<GLuint>(cascade), 0, GL_READ_WRITE);
-  if (field.lengthOf(ExactField::List::Candidates) > 0) resolveBand(field);
+  resolveBand(field);
   field.bindList(ExactField::List::Values);
   for (Program* program : {farValues_.get(), far_.get()}) {
     betweenDispatches();

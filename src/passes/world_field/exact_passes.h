@@ -46,7 +46,7 @@ private:
   void makeSides(ExactField& field);
   void joinObjects(const ExactField& field, const ResidentScene& scene);
 
-  std::shared_ptr<Program> evaluate_, refine_, farValues_, far_, sides_, objects_, objectsOfFlipped_;
+  std::shared_ptr<Program> evaluate_, refine_, refineListed_, farValues_, far_, sides_, objects_, objectsOfFlipped_;
 };
 
 } // namespace brickfield

@@ -60,6 +60,7 @@ const std::vector<ProgramSource>& programs() {
       compute("field_candidates", "passes/field_candidates.comp.glsl"),
       compute("field_evaluate", "passes/field_evaluate.comp.glsl"),
       compute("field_refine", "passes/field_refine.comp.glsl"),
+      {"field_refine_listed", {{GL_COMPUTE_SHADER, "passes/field_refine.comp.glsl"}}, {{"LISTED", "1"}}, {}},
       compute("field_far_values", "passes/field_far_values.comp.glsl"),
       compute("field_far", "passes/field_far.comp.glsl"),
       compute("field_sides", "passes/field_sides.comp.glsl"),
