@@ -26,6 +26,8 @@ float visibleShare(ShadowCone cone, ivec2 pixel, int light);
 uint readsOfThread();
 // Metres: what a reading there is not finer than.
 float grainAt(vec3 pointAnchored);
+// The larger of a grain and of that near a surface there.
+float coarsestGrain(vec3 pointAnchored, float grain);
 
 struct ShadowedPixel {
   vec3 pointEye;
@@ -40,6 +42,15 @@ ShadowedPixel shadowedPixel(ivec2 pixel) {
   float t = rayParameterOfDepth(originEye, directionWorld, texelFetch(depth, pixel, 0).r);
   vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).zw);
   return ShadowedPixel(originEye + t * directionWorld, normal, t, kindOfId(texelFetch(id, pixel, 0).r) != KIND_NONE);
+}
+
+// Beyond a cascade's border thin things are as thick as the next one's texels, and where bricks end as the field's: from
+// near there a lift must be as high.
+float coarsenedGrain(vec3 origin, vec3 axis, float grain) {
+  float texel = texelOf(readWorldField(origin)), ahead = texelOf(readWorldField(origin + 8.0 * texel * axis));
+  if (ahead > texel) return max(grain, ahead);
+  for (int i = 1; i <= 4 && grain < texel; ++i) grain = coarsestGrain(origin + 0.5 * float(i) * texel * axis, grain);
+  return grain;
 }
 
 ShadowCone coneTo(LightRow light, ShadowedPixel pixel, float grain) {
@@ -59,6 +70,7 @@ ShadowCone coneTo(LightRow light, ShadowedPixel pixel, float grain) {
     cone.lightAt = away;
     cone.spread = cone.isRectangle ? radius / away : radius * inversesqrt(max(away * away - radius * radius, 0.01 * radius * radius));
   }
+  cone.grain = coarsenedGrain(cone.origin, cone.axis, grain);
   axesAcross(cone.axis, cone.right, cone.up);
   cone.right *= cone.spread;
   cone.up *= cone.spread;

@@ -18,4 +18,10 @@ float grainAt(vec3 pointAnchored) {
   FieldReading reading = readWorldField(pointAnchored);
   return refineByBricks(pointAnchored, reading, texelOf(reading)).grain;
 }
+float coarsestGrain(vec3 pointAnchored, float grain) {
+  FieldReading reading = readWorldField(pointAnchored);
+  float texel = texelOf(reading);
+  bool isNear = abs(reading.distanceWorld) < BRICKS_ALONE_TEXELS * texel;
+  return isNear ? max(grain, refineByBricks(pointAnchored, reading, texel).grain) : grain;
+}
 float visibleShare(ShadowCone cone, ivec2 pixel, int light) { return shadowOf(cone, raysOfPenumbra, softness); }

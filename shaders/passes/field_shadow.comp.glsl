@@ -13,4 +13,5 @@ ShadowReading readForShadow(vec3 pointAnchored) {
 
 uint readsOfThread() { return shadowReads; }
 float grainAt(vec3 pointAnchored) { return texelOf(readWorldField(pointAnchored)); }
+float coarsestGrain(vec3 pointAnchored, float grain) { return grain; }
 float visibleShare(ShadowCone cone, ivec2 pixel, int light) { return shadowOf(cone, raysOfPenumbra, softness); }

@@ -9,6 +9,7 @@ uniform uint seed;
 
 uint readsOfThread() { return shadowReads; }
 float grainAt(vec3 pointAnchored) { return texelOf(readWorldField(pointAnchored)); }
+float coarsestGrain(vec3 pointAnchored, float grain) { return grain; }
 float visibleShare(ShadowCone cone, ivec2 pixel, int light) {
   FieldCascade coarsest = field.cascades[int(field.counts.x) - 1];
   float step = mostStep * 0.5 * float(coarsest.window.w) * coarsest.texel.x;
