@@ -27,9 +27,9 @@ double cpuSecondsOf(const rusage& usage);
 
 /// A signal that is sent while the program works.
 struct Interrupt {
-  int afterMilliseconds = 0; ///< 0: never
+  int afterMilliseconds = 0; ///< from when the program catches the signal; 0: never
   int signal = SIGINT;
-  std::filesystem::path awaited; ///< sent only once this file or folder is there, counted from then; empty: at once
+  std::filesystem::path awaited; ///< counted only once this file or folder is there as well; empty: at once
 };
 
 /// Runs it to its end; what does not end within two minutes is killed, with a failure of the test.
