@@ -1,4 +1,4 @@
-// Walks the list once with the last write of every resource in hand.
+// Walks the list once with the last write of every resource in hand, and the barriers since.
 #include "renderer/frame_plan.h"
 
 #include <array>
@@ -40,31 +40,48 @@ std::uint32_t barrierFor(Access access) {
   return GL_ALL_BARRIER_BITS;
 }
 
+struct ResourceState {
+  std::optional<Access> lastWrite;
+  std::uint32_t barriersSince = 0; ///< that write: what it left is visible to these already
+  bool isReadSince = false;        ///< since a barrier: passes that read it may still be running
+};
+
+// Passes between which nothing stands may run side by side.
+std::uint32_t barrierBeforeRead(const ResourceState& state, Access access) {
+  if (!state.lastWrite || !isIncoherent(*state.lastWrite)) return 0;
+  return barrierFor(access) & ~state.barriersSince;
+}
+
+std::uint32_t barrierBeforeWrite(const ResourceState& state, Access access) {
+  const bool wouldOvertake = state.isReadSince && isIncoherent(access);
+  return barrierBeforeRead(state, access) | (wouldOvertake ? barrierFor(access) : 0);
+}
+
 } // namespace
 
 void planFrame(std::vector<PlannedPass>& passes, const std::vector<ResourceUse>& provided) {
-  std::array<std::optional<Access>, kResourceCount> lastWrite;
-  for (const ResourceUse& use : provided) lastWrite[static_cast<std::size_t>(use.resource)] = use.access;
+  std::array<ResourceState, kResourceCount> states;
+  const auto stateOf = [&](Resource resource) -> ResourceState& { return states[static_cast<std::size_t>(resource)]; };
+  for (const ResourceUse& use : provided) stateOf(use.resource).lastWrite = use.access;
   std::set<std::string> names;
   for (PlannedPass& pass : passes) {
     const PassDeclaration& declaration = pass.declaration;
     if (!names.insert(declaration.name).second)
       throw Failure(fmt::format("frame plan: two passes are named {}", declaration.name));
     pass.barriersBefore = 0;
-    const auto require = [&](const ResourceUse& use) {
-      const auto& last = lastWrite[static_cast<std::size_t>(use.resource)];
-      if (last && isIncoherent(*last)) pass.barriersBefore |= barrierFor(use.access);
-      return last.has_value();
-    };
     for (const ResourceUse& use : declaration.reads)
-      if (!require(use))
+      if (!stateOf(use.resource).lastWrite)
         throw Failure(
             fmt::format("frame plan: {} reads {}, which nobody wrote", declaration.name, resourceName(use.resource)));
-    for (const ResourceUse& use : declaration.readsIfMade) require(use);
-    for (const ResourceUse& use : declaration.writes) {
-      require(use);
-      lastWrite[static_cast<std::size_t>(use.resource)] = use.access;
-    }
+    for (const auto* reads : {&declaration.reads, &declaration.readsIfMade})
+      for (const ResourceUse& use : *reads) pass.barriersBefore |= barrierBeforeRead(stateOf(use.resource), use.access);
+    for (const ResourceUse& use : declaration.writes)
+      pass.barriersBefore |= barrierBeforeWrite(stateOf(use.resource), use.access);
+    if (pass.barriersBefore)
+      for (ResourceState& state : states) state.barriersSince |= pass.barriersBefore, state.isReadSince = false;
+    for (const auto* reads : {&declaration.reads, &declaration.readsIfMade})
+      for (const ResourceUse& use : *reads) stateOf(use.resource).isReadSince = true;
+    for (const ResourceUse& use : declaration.writes) stateOf(use.resource) = {use.access, 0, false};
   }
 }
 

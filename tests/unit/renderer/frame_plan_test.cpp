@@ -110,6 +110,40 @@ TEST(FramePlan, LastWriterDecidesAndOtherResourcesDoNot) {
   EXPECT_EQ(passes[3].barriersBefore, 0u);
 }
 
+// Passes with nothing between them may run side by side.
+TEST(FramePlan, OneBarrierServesAllReadersUntilTheNextWrite) {
+  const PassDeclaration store{"store", {}, {{Resource::Color, Access::ImageStore}}};
+  std::vector<PlannedPass> passes = passesOf({store,
+                                              {"a", {{Resource::Color, Access::Sampled}}, {}},
+                                              {"b", {{Resource::Color, Access::Sampled}}, {}},
+                                              {"c", {{Resource::Color, Access::StorageRead}}, {}},
+                                              {"again", {}, {{Resource::Color, Access::ImageStore}}},
+                                              {"d", {{Resource::Color, Access::Sampled}}, {}}});
+  planFrame(passes, {});
+  EXPECT_EQ(passes[1].barriersBefore, GL_TEXTURE_FETCH_BARRIER_BIT);
+  EXPECT_EQ(passes[2].barriersBefore, 0u);
+  EXPECT_EQ(passes[3].barriersBefore, GL_SHADER_STORAGE_BARRIER_BIT) << "another access";
+  EXPECT_EQ(passes[4].barriersBefore, GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  EXPECT_EQ(passes[5].barriersBefore, GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+// What a barrier was issued for another resource's sake counts as well.
+TEST(FramePlan, WhatIsReadIsNotOvertaken) {
+  const PassDeclaration read{"read", {{Resource::Color, Access::Sampled}}, {}};
+  const PassDeclaration store{"store", {}, {{Resource::Color, Access::ImageStore}}};
+  std::vector<PlannedPass> passes = passesOf({read, store});
+  planFrame(passes, {{Resource::Color, Access::Upload}});
+  EXPECT_EQ(passes[1].barriersBefore, GL_SHADER_IMAGE_ACCESS_BARRIER_BIT) << "its reader may still be running";
+
+  passes = passesOf({{"depth", {}, {{Resource::Depth, Access::ImageStore}}},
+                     read,
+                     {"other", {{Resource::Depth, Access::Sampled}}, {}},
+                     store});
+  planFrame(passes, {{Resource::Color, Access::Upload}});
+  EXPECT_NE(passes[2].barriersBefore, 0u);
+  EXPECT_EQ(passes[3].barriersBefore, 0u) << "a barrier stands between them already";
+}
+
 TEST(FramePlan, StoresBeforeTheFrameGetTheirBarrier) {
   std::vector<PlannedPass> passes = passesOf({{"lighting", {{Resource::Environment, Access::Sampled}}, {}}});
   planFrame(passes, {{Resource::Environment, Access::ImageStore}});
