@@ -10,11 +10,11 @@ const float BAND_TEXELS = 4.0, INSIDE_BAND_TEXELS = 5.0;
 // Closed parts are at least so thick near them, and as thin as they are from so far away on.
 const float THICK_TEXELS = 1.15, FADED_TEXELS = 2.0;
 const float KINK_VOXELS = 0.3;
-const int MOST_ROUNDS = 8, MOST_ROUNDS_FROM_NEIGHBOUR = 3, LOOK_AROUND_ROUND = 3, MOST_FAILURES = 2;
+const int MOST_ROUNDS = 5, MOST_ROUNDS_FROM_NEIGHBOUR = 2, LOOK_AROUND_ROUND = 3, MOST_FAILURES = 2;
 // Between samples a distance may fall about this much below the truth where two surfaces are equally far away.
 const float CERTAIN_TEXELS = 0.03;
 // Where bounds stand this close together the search ends.
-const float ACCURATE_TEXELS = 0.01;
+const float ACCURATE_TEXELS = 0.015;
 
 // An object as texels of one size see it.
 struct FieldObject {

@@ -210,6 +210,52 @@ TEST_F(SdfObjectsInField, RealOnesAreExact) {
   EXPECT_LE(error.farthestWrongSign, 0.25); // at edges, where it is a matter of taste what lies behind
 }
 
+// More objects around each tile than a work group has threads, or lists at a time: the least distance to spheres, in
+// closed form.
+TEST_F(SdfObjectsInField, AreExactWhereHundredsOverlap) {
+  constexpr int kAlong = 9;
+  constexpr float kRadius = 0.06f, kApart = 0.05f;
+  Scene built = sceneOf({{"Sdf0", makeSphereMesh(kRadius, 48, 96), glm::mat4(1)}});
+  std::vector<glm::vec3> centers;
+  for (int i = 0; i < kAlong * kAlong * kAlong; ++i) {
+    // Not quite in rows, so that no two are equally near.
+    const glm::vec3 at(i % kAlong, i / kAlong % kAlong, i / (kAlong * kAlong));
+    centers.push_back(kApart * (at + 0.3f * glm::sin(glm::vec3(1.7f, 2.9f, 4.1f) * static_cast<float>(i))));
+    if (i > 0) {
+      Node node = built.nodes[0];
+      node.name = "Sdf" + std::to_string(i);
+      built.scenes[0].nodes.push_back(i);
+      built.nodes.push_back(node);
+    }
+    built.nodes[static_cast<std::size_t>(i)].matrix = place(centers.back());
+  }
+  const TestScene scene(std::move(built), "Sdf*", 32);
+  ASSERT_EQ(scene.pose().instances.size(), centers.size());
+  WorldFieldStage stage(scene.scene(), scene.fields(), {1, 16, 0, true});
+  stage.frame(scene.pose(), glm::dvec3(0));
+  const FieldSnapshot field = stage.read();
+  const double h = field.window.texelSize, range = field.window.rangeTexels();
+  ASSERT_LT(h, 0.05) << "all 729 lie within two tiles";
+  double squares = 0, worst = 0;
+  std::size_t near = 0, wrongSigns = 0;
+  for (std::size_t i = 0; i < field.distances.size(); ++i) {
+    const glm::dvec3 point = field.centerAnchored(i) + field.anchorWorld;
+    double truth = range;
+    for (const glm::vec3& center : centers)
+      truth = std::min(truth, (glm::distance(point, glm::dvec3(center)) - kRadius) / h);
+    if (truth > 4) continue;
+    const double off = std::abs(field.distances[i] - truth);
+    ++near, squares += off * off, worst = std::max(worst, off);
+    wrongSigns += std::abs(truth) > 0.05 && (truth < 0) != (field.distances[i] < 0);
+  }
+  std::printf("hundreds: near rms %.4f worst %.3f (%zu texels of %.4f m)\n", std::sqrt(squares / double(near)), worst,
+              near, h);
+  EXPECT_GT(near, 1000u);
+  EXPECT_LE(std::sqrt(squares / static_cast<double>(near)), 0.01);
+  EXPECT_LE(worst, 0.1);
+  EXPECT_EQ(wrongSigns, 0u);
+}
+
 // Objects that overlap are worked on in an order of their own, and look at their neighbours; still each bit is what it
 // would be without a past.
 TEST_F(SdfObjectsInField, MoveToTheSameBits) {
