@@ -11,7 +11,6 @@ layout(local_size_x = 128) in;
 layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
 layout(std430, binding = kFieldIdBinding) readonly buffer IdBlock { uint ids[]; };
 layout(std430, binding = kFieldCandidateBinding) readonly buffer CandidateBlock { uint candidates[]; };
-layout(std430, binding = kFieldSideBinding) writeonly buffer SideBlock { uint sides[]; };
 
 uniform uint listLength;
 
@@ -157,8 +156,5 @@ void main() {
   if (index >= listLength) return;
   ListedTile tile = listedTile(listed[index]);
   FieldCascade cascade = field.cascades[tile.cascade];
-  if (isReachedTile(tiles[tile.word]))
-    resolveReached(tile, cascade);
-  else if (gl_LocalInvocationIndex == 0u)
-    sides[tile.word] = FIELD_SIDE_UNKNOWN;
+  if (isReachedTile(tiles[tile.word])) resolveReached(tile, cascade);
 }

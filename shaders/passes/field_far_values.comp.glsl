@@ -1,4 +1,4 @@
-// Signed values of the coarse texels, from their candidates.
+// Signed values of the coarse texels, from their candidates; tiles that nothing reaches are left to field_sides.
 //
 // Signs: near surfaces the pseudonormal of what is nearest tells. Farther away the candidate may not quite be the
 // nearest and its pseudonormal point anywhere; but the ball around the texel up to the surface holds no other surface,
@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 
 layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
 layout(std430, binding = kFieldCandidateBinding) buffer CandidateBlock { uint candidates[]; };
+layout(std430, binding = kFieldSideBinding) writeonly buffer SideBlock { uint sides[]; };
 
 uniform uint listLength;
 
@@ -31,6 +32,7 @@ void main() {
   ListedTile tile = listedTile(listed[index]);
   FieldCascade cascade = field.cascades[tile.cascade];
   uint thread = gl_LocalInvocationIndex;
+  if (thread == 0u && !isReachedTile(tiles[tile.word])) sides[tile.word] = FIELD_SIDE_UNKNOWN;
   ivec3 coarse = tile.firstTexel / COARSE + cubeIndex(int(thread), COARSE_TILE);
   uint word = coarseWord(cascade, coarse);
   values[thread] = valueAt(cascade, coarse, candidates[word]);

@@ -56,7 +56,7 @@ std::string floorText(const FieldTimes& times, const DeviceRates& rates) {
   text += fmt::format(" = {:.4f} and {:.4f} ms at {:g} GB/s and {:g} T/s", 1e3 * floor.bytes / *rates.bytes,
                       1e3 * floor.operations / *rates.operations, *rates.bytes / 1e9, *rates.operations / 1e12);
   if (*milliseconds > 0)
-    text += fmt::format("; the update takes {:.1f} times that", times.sumMilliseconds / *milliseconds);
+    text += fmt::format("; the update takes {:.1f} times that", times.milliseconds / *milliseconds);
   return text;
 }
 
@@ -66,7 +66,7 @@ nlohmann::ordered_json floorJson(const FieldTimes& times, const DeviceRates& rat
   const std::optional<double> milliseconds = floorMilliseconds(floor, rates);
   json["ms"] = milliseconds ? nlohmann::ordered_json(*milliseconds) : nullptr;
   json["times_over"] =
-      milliseconds && *milliseconds > 0 ? nlohmann::ordered_json(times.sumMilliseconds / *milliseconds) : nullptr;
+      milliseconds && *milliseconds > 0 ? nlohmann::ordered_json(times.milliseconds / *milliseconds) : nullptr;
   return json;
 }
 

@@ -18,8 +18,8 @@ Json benchCrowd(const FieldBenchSetting& setting, const MoverCrowd& crowd) {
   const DeviceRates rates = ratesOf(setting.request, setting.device.renderer);
   const FieldShape& shape = setting.request.moverShape;
   const FieldTimes times = bench.timeExact(shape, motionOf(crowd), setting.request.frames);
-  fmt::print("{:>7} movers {:9.3f} ms |{} | tiles {} values | plan {:.3f} ms of the CPU | {:.0f} MiB\n",
-             crowd.centers.size(), times.sumMilliseconds, passesText(times), times.tiles.values, times.planMilliseconds,
+  fmt::print("{:>7} movers {:9.3f} ms | apart:{} | tiles {} values | plan {:.3f} ms of the CPU | {:.0f} MiB\n",
+             crowd.centers.size(), times.milliseconds, passesText(times), times.tiles.values, times.planMilliseconds,
              static_cast<double>(times.bytes) / 1048576.0);
   fmt::print("{:<15}{}\n", "", floorText(times, rates));
   std::fflush(stdout);

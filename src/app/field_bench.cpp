@@ -1,7 +1,8 @@
-// The passes of both methods, one timer each, as the renderer's frame has them.
+// The passes of both methods, in the renderer's order.
 #include "app/field_bench.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "app/frame_medians.h"
 #include "app/session.h"
@@ -24,7 +25,9 @@ FieldBench::FieldBench(const ContextInfo& info, const Scene& scene, const SceneF
       targets_({4, 4}),
       counters_("counters", 64),
       deform_(shaders_),
-      gatherPass_(shaders_),
+      gather_(shaders_),
+      pseudonormals_(shaders_),
+      clear_(shaders_),
       splat_(shaders_),
       candidates_(shaders_),
       resolve_(shaders_),
@@ -34,17 +37,46 @@ FieldBench::FieldBench(const ContextInfo& info, const Scene& scene, const SceneF
       rays_(shaders_) {}
 
 template <typename Record>
-void FieldBench::timePass(const char* name, GLbitfield barriers, const Record& record) {
-  const auto timer = timers_.scope(name);
+void FieldBench::timeUpdate(const Record& record) {
+  if (arePassesApart_) return record();
+  const auto timer = timers_.scope("update");
   record();
-  glMemoryBarrier(barriers);
 }
 
-void FieldBench::gather() {
+template <typename Record>
+void FieldBench::timePass(const char* name, GLbitfield barriers, const Record& record) {
+  std::optional<FrameTimers::Scope> timer;
+  if (arePassesApart_) timer.emplace(timers_, name);
+  record();
+  if (barriers) glMemoryBarrier(barriers);
+}
+
+void FieldBench::recordExact(ExactField& exact) {
   FrameContext context{resident_, targets_, visible_, counters_, none_, none_};
   context.worldTriangles = &triangles_;
   timePass("deform", GL_SHADER_STORAGE_BARRIER_BIT, [&] { deform_.record(context); });
-  timePass("world_triangles", GL_SHADER_STORAGE_BARRIER_BIT, [&] { gatherPass_.record(context); });
+  timePass("field_clear", 0, [&] { clear_.record(exact); });
+  timePass("world_triangles", GL_SHADER_STORAGE_BARRIER_BIT, [&] { gather_.record(context); });
+  timePass("world_pseudonormals", 0, [&] { pseudonormals_.record(context); });
+  timePass("field_splat", GL_SHADER_STORAGE_BARRIER_BIT, [&] { splat_.record(exact, triangles_.triangles()); });
+  timePass("field_candidates", GL_SHADER_STORAGE_BARRIER_BIT,
+           [&] { candidates_.record(exact, triangles_.triangles()); });
+  timePass("field_resolve", GL_TEXTURE_FETCH_BARRIER_BIT,
+           [&] { resolve_.record(exact, triangles_.triangles(), resident_); });
+}
+
+void FieldBench::recordRtsdf(RtsdfField& field) {
+  FrameContext context{resident_, targets_, visible_, counters_, none_, none_};
+  context.worldTriangles = &triangles_;
+  timePass("deform", GL_SHADER_STORAGE_BARRIER_BIT, [&] { deform_.record(context); });
+  timePass("world_triangles", GL_SHADER_STORAGE_BARRIER_BIT, [&] { gather_.record(context); });
+  timePass("hierarchy_refit", GL_SHADER_STORAGE_BARRIER_BIT,
+           [&] { refit_.record(hierarchy_.hierarchy(), triangles_.triangles()); });
+  timePass("rtsdf_voxelize", GL_SHADER_STORAGE_BARRIER_BIT,
+           [&] { voxelize_.record(field, triangles_.triangles(), triangles_.triangleCount()); });
+  timePass("rtsdf_jump_flood", GL_ALL_BARRIER_BITS, [&] { flood_.record(field); });
+  timePass("rtsdf_rays", GL_ALL_BARRIER_BITS,
+           [&] { rays_.record(field, hierarchy_.hierarchy(), triangles_.triangles()); });
 }
 
 template <typename Record>
@@ -55,17 +87,18 @@ FieldTimes FieldBench::timeFrames(int frames, const Record& record) {
     record(number);
     glFinish();
   });
-  FrameMedians medians;
+  FrameMedians whole, apart;
   std::vector<double> plans;
-  for (const int end = frame + frames; frame < end; ++frame) {
+  for (const int end = frame + 2 * frames; frame < end; ++frame) {
     throwIfInterrupted();
     timers_.beginFrame();
+    arePassesApart_ = !arePassesApart_;
     plans.push_back(record(frame));
-    medians.add(timers_.results());
+    (arePassesApart_ ? apart : whole).add(timers_.results());
   }
   FieldTimes times;
-  times.passes = medians.passes();
-  times.sumMilliseconds = medians.sumMilliseconds();
+  times.passes = apart.passes();
+  times.milliseconds = whole.sumMilliseconds();
   times.planMilliseconds = medianOf(plans);
   return times;
 }
@@ -82,13 +115,7 @@ FieldTimes FieldBench::timeExact(const FieldShape& shape, const PoseOfFrame& pos
     field.update(triangles_, resident_, isNew, eye);
     const double planMilliseconds = plan.milliseconds();
     gathered = triangles_.triangleChunks() * shared::GATHER_TRIANGLES;
-    gather();
-    timePass("field_splat", GL_SHADER_STORAGE_BARRIER_BIT,
-             [&] { splat_.record(field.exact(), triangles_.triangles()); });
-    timePass("field_candidates", GL_SHADER_STORAGE_BARRIER_BIT,
-             [&] { candidates_.record(field.exact(), triangles_.triangles()); });
-    timePass("field_resolve", GL_TEXTURE_FETCH_BARRIER_BIT,
-             [&] { resolve_.record(field.exact(), triangles_.triangles(), resident_); });
+    timeUpdate([&] { recordExact(field.exact()); });
     triangles_.settle();
     return planMilliseconds;
   });
@@ -114,14 +141,7 @@ FieldTimes FieldBench::timeRtsdf(const RtsdfSettings& settings, const PoseOfFram
     field.place({boundsWorld.min - glm::vec3(anchor), boundsWorld.max - glm::vec3(anchor)});
     field.reserveTriangles(triangles_.triangleCount());
     const double planMilliseconds = plan.milliseconds();
-    gather();
-    timePass("hierarchy_refit", GL_SHADER_STORAGE_BARRIER_BIT,
-             [&] { refit_.record(hierarchy_.hierarchy(), triangles_.triangles()); });
-    timePass("rtsdf_voxelize", GL_SHADER_STORAGE_BARRIER_BIT,
-             [&] { voxelize_.record(field, triangles_.triangles(), triangles_.triangleCount()); });
-    timePass("rtsdf_jump_flood", GL_ALL_BARRIER_BITS, [&] { flood_.record(field); });
-    timePass("rtsdf_rays", GL_ALL_BARRIER_BITS,
-             [&] { rays_.record(field, hierarchy_.hierarchy(), triangles_.triangles()); });
+    timeUpdate([&] { recordRtsdf(field); });
     triangles_.settle();
     return planMilliseconds;
   });

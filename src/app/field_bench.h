@@ -21,9 +21,11 @@ namespace brickfield {
 
 /// Medians over the frames, and what the last one worked on.
 struct FieldTimes {
-  std::vector<PassTime> passes; ///< in the order of the frame
-  double sumMilliseconds = 0;   ///< of the passes, on the GPU
-  double planMilliseconds = 0;  ///< on the CPU: what moved, which tiles, uploads
+  double milliseconds = 0; ///< of the whole update, on the GPU
+  /// In the order of the frame, of other frames: a timer keeps a pass from running beside the next, so they sum to
+  /// more.
+  std::vector<PassTime> passes;
+  double planMilliseconds = 0; ///< on the CPU: what moved, which tiles, uploads
   struct Tiles {
     std::uint32_t keys = 0, candidates = 0, values = 0;
   } tiles;                    ///< of the exact field, made anew
@@ -50,8 +52,11 @@ private:
   template <typename Record>
   FieldTimes timeFrames(int frames, const Record& record);
   template <typename Record>
+  void timeUpdate(const Record& record);
+  template <typename Record>
   void timePass(const char* name, GLbitfield barriers, const Record& record);
-  void gather();
+  void recordExact(ExactField& exact);
+  void recordRtsdf(RtsdfField& field);
 
   const Scene& scene_;
   ResidentScene resident_;
@@ -64,7 +69,9 @@ private:
   Buffer counters_;
   Texture none_;
   DeformPass deform_;
-  WorldTrianglesPass gatherPass_;
+  WorldTrianglesPass gather_;
+  PseudonormalsPass pseudonormals_;
+  FieldClearPass clear_;
   FieldSplatPass splat_;
   FieldCandidatesPass candidates_;
   FieldResolvePass resolve_;
@@ -72,6 +79,7 @@ private:
   RtsdfVoxelizePass voxelize_;
   RtsdfJumpFloodPass flood_;
   RtsdfRaysPass rays_;
+  bool arePassesApart_ = false; ///< each with a timer of its own, in every other frame
 };
 
 } // namespace brickfield

@@ -47,6 +47,8 @@ const char* resourceName(Resource resource) {
     return "counters";
   case Resource::WorldTriangles:
     return "world_triangles";
+  case Resource::Pseudonormals:
+    return "pseudonormals";
   case Resource::TriangleHierarchy:
     return "triangle_hierarchy";
   case Resource::FieldKeys:

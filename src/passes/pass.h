@@ -31,6 +31,7 @@ enum class Resource : std::uint8_t {
   Picture,
   Counters,
   WorldTriangles,    ///< triangles of all drawn instances where they stand
+  Pseudonormals,     ///< in their rows
   TriangleHierarchy, ///< over them, for rays
   FieldKeys,         ///< of the exact field: surface keys and seeds
   FieldCandidates,   ///< nearest triangles at half resolution
@@ -38,7 +39,7 @@ enum class Resource : std::uint8_t {
   WorldFieldCoarse,  ///< unsigned, less the thickness
   WorldField,        ///< the volume that other passes read, and what it keeps from frame to frame
 };
-inline constexpr int kResourceCount = 27;
+inline constexpr int kResourceCount = 28;
 const char* resourceName(Resource resource);
 
 /// How the GPU touches it: decides the barrier after incoherent writes.

@@ -45,6 +45,8 @@ namespace brickfield {
 namespace {
 
 void recordPass(WorldTrianglesPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(PseudonormalsPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(FieldClearPass& pass, const FrameContext& frame) { pass.record(*frame.field->exact); }
 void recordPass(FieldSplatPass& pass, const FrameContext& frame) {
   pass.record(*frame.field->exact, frame.worldTriangles->triangles());
 }
@@ -122,6 +124,8 @@ struct Renderer::Parts {
   TonePass tone;
   DebugViewPass debugView;
   LatePass<WorldTrianglesPass> worldTriangles;
+  LatePass<PseudonormalsPass> pseudonormals;
+  LatePass<FieldClearPass> fieldClear;
   LatePass<FieldSplatPass> fieldSplat;
   LatePass<FieldCandidatesPass> fieldCandidates;
   LatePass<FieldResolvePass> fieldResolve;
@@ -239,9 +243,11 @@ void Renderer::Parts::keepForNextFrame() {
 // The frame on one screen; take is handed pointers to the members, so that names need no renderer.
 template <typename Take>
 void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
-  take(&Parts::deform); // moved vertices, before anything draws them
+  take(&Parts::deform);                              // moved vertices, before anything draws them
+  if (shape.hasExactField) take(&Parts::fieldClear); // side by side with the next
   if (shape.hasExactField || shape.hasRtsdfField) take(&Parts::worldTriangles); // of the deformed vertices
   if (shape.hasExactField) {
+    take(&Parts::pseudonormals); // side by side with the next
     take(&Parts::fieldSplat);
     take(&Parts::fieldCandidates);
     take(&Parts::fieldResolve); // the field is whole before anything reads it

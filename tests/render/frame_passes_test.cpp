@@ -55,7 +55,7 @@ TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
 
 bool makesField(const std::vector<std::string>& names) {
   return std::any_of(names.begin(), names.end(), [](const std::string& name) {
-    return name == "world_triangles" || name.starts_with("field_") || name.starts_with("rtsdf_") ||
+    return name.starts_with("world_") || name.starts_with("field_") || name.starts_with("rtsdf_") ||
            name == "hierarchy_refit";
   });
 }

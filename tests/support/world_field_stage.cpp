@@ -17,7 +17,9 @@ WorldFieldStage::WorldFieldStage(const Scene& scene, const SceneFields& fields, 
       field_(shape),
       shaders_(std::filesystem::path(BRICKFIELD_SOURCE_DIR) / "shaders"),
       deform_(shaders_),
+      clear_(shaders_),
       gather_(shaders_),
+      pseudonormals_(shaders_),
       splat_(shaders_),
       candidates_(shaders_),
       resolve_(shaders_) {}
@@ -36,7 +38,9 @@ void WorldFieldStage::frame(const Pose& pose, glm::dvec3 eyeWorld) {
   context.worldTriangles = &triangles_;
   const auto barrier = [] { glMemoryBarrier(GL_ALL_BARRIER_BITS); };
   deform_.record(context), barrier();
+  clear_.record(field_.exact()), barrier();
   gather_.record(context), barrier();
+  pseudonormals_.record(context), barrier();
   splat_.record(field_.exact(), triangles_.triangles()), barrier();
   candidates_.record(field_.exact(), triangles_.triangles()), barrier();
   resolve_.record(field_.exact(), triangles_.triangles(), resident_), barrier();

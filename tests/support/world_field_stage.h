@@ -43,7 +43,9 @@ private:
   WorldField field_;
   ShaderLibrary shaders_;
   DeformPass deform_;
+  FieldClearPass clear_;
   WorldTrianglesPass gather_;
+  PseudonormalsPass pseudonormals_;
   FieldSplatPass splat_;
   FieldCandidatesPass candidates_;
   FieldResolvePass resolve_;

@@ -33,17 +33,11 @@ constexpr GLuint kPartGroups = 2048, kBandGroups = 4096;
 
 } // namespace
 
-FieldSplatPass::FieldSplatPass(ShaderLibrary& shaders)
-    : clear_(loadCompute(shaders, "passes/field_clear.comp.glsl")),
-      splat_(loadCompute(shaders, "passes/field_splat.comp.glsl")),
-      parts_(loadCompute(shaders, "passes/field_splat_parts.comp.glsl")) {}
+FieldClearPass::FieldClearPass(ShaderLibrary& shaders) : clear_(loadCompute(shaders, "passes/field_clear.comp.glsl")) {}
 
-PassDeclaration FieldSplatPass::declare() {
-  return {
-      "field_splat", {{Resource::WorldTriangles, Access::StorageRead}}, {{Resource::FieldKeys, Access::StorageWrite}}};
-}
+PassDeclaration FieldClearPass::declare() { return {"field_clear", {}, {{Resource::FieldKeys, Access::StorageWrite}}}; }
 
-void FieldSplatPass::record(ExactField& field, const Buffer& triangles) {
+void FieldClearPass::record(const ExactField& field) {
   if (field.lengthOf(ExactField::List::Keys) == 0) return;
   field.bindParams();
   field.bindKeys();
@@ -51,8 +45,22 @@ void FieldSplatPass::record(ExactField& field, const Buffer& triangles) {
   field.bindParts();
   field.bindList(ExactField::List::Keys);
   dispatchList(*clear_, field.lengthOf(ExactField::List::Keys));
+}
+
+FieldSplatPass::FieldSplatPass(ShaderLibrary& shaders)
+    : splat_(loadCompute(shaders, "passes/field_splat.comp.glsl")),
+      parts_(loadCompute(shaders, "passes/field_splat_parts.comp.glsl")) {}
+
+PassDeclaration FieldSplatPass::declare() {
+  return {
+      "field_splat", {{Resource::WorldTriangles, Access::StorageRead}}, {{Resource::FieldKeys, Access::StorageWrite}}};
+}
+
+void FieldSplatPass::record(const ExactField& field, const Buffer& triangles) {
   if (field.splatCount() == 0) return;
-  betweenDispatches();
+  field.bindParams();
+  field.bindKeys();
+  field.bindParts();
   triangles.bindStorage(shared::kWorldTriangleBinding);
   field.bindSplats();
   dispatchList(*splat_, field.splatCount());
@@ -118,13 +126,13 @@ PassDeclaration FieldResolvePass::declare() {
           {{Resource::WorldTriangles, Access::StorageRead},
            {Resource::FieldKeys, Access::StorageRead},
            {Resource::FieldCandidates, Access::StorageRead},
+           {Resource::Pseudonormals, Access::StorageRead},
            {Resource::SdfScene, Access::StorageRead}},
           {{Resource::WorldField, Access::ImageStore}}};
 }
 
 void FieldResolvePass::makeSides(ExactField& field) {
   constexpr std::uint32_t kTilesOfGroup = 16;
-  field.clearFlips();
   field.flips().bindStorage(shared::kFieldFlipBinding);
   sides_->set("tileCount", field.tileCount());
   dispatchGroups(*sides_, ceilDivide(field.tileCount(), kTilesOfGroup));
@@ -167,6 +175,7 @@ void FieldResolvePass::resolveBand(const ExactField& field) {
 
 void FieldResolvePass::record(ExactField& field, const Buffer& triangles, const ResidentScene& scene) {
   if (!field.hasWork()) return;
+  field.clearFlips();
   field.bindParams();
   triangles.bindStorage(shared::kWorldTriangleBinding);
   field.bindKeys();
@@ -179,12 +188,12 @@ void FieldResolvePass::record(ExactField& field, const Buffer& triangles, const 
     field.distances(cascade).bindImage(static_cast<GLuint>(cascade), 0, GL_READ_WRITE);
   resolveBand(field);
   field.bindList(ExactField::List::Values);
-  for (Program* program : {farValues_.get(), far_.get()}) {
-    betweenDispatches();
-    dispatchList(*program, field.lengthOf(ExactField::List::Values));
-  }
   betweenDispatches();
-  makeSides(field);
+  dispatchList(*farValues_, field.lengthOf(ExactField::List::Values));
+  betweenDispatches();
+  makeSides(field); // of other tiles, side by side with those to come
+  field.bindList(ExactField::List::Values);
+  dispatchList(*far_, field.lengthOf(ExactField::List::Values));
   if (scene.sdfInstanceCount() > 0) joinObjects(field, scene);
 }
 

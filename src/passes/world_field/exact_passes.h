@@ -1,4 +1,4 @@
-// The exact world field in three passes. Each works on the lists of ExactField::prepare and does nothing where they are
+// The exact world field in four passes. Each works on the lists of ExactField::prepare and does nothing where they are
 // empty: a still scene costs nothing.
 #pragma once
 
@@ -9,15 +9,26 @@
 
 namespace brickfield {
 
+/// Forgets the keys of the tiles that are made anew.
+class FieldClearPass {
+public:
+  explicit FieldClearPass(ShaderLibrary& shaders);
+  static PassDeclaration declare();
+  void record(const ExactField& field);
+
+private:
+  std::shared_ptr<Program> clear_;
+};
+
 /// Surface keys: every triangle leaves its distance and number in the texels within kFieldSplatTexels of it.
 class FieldSplatPass {
 public:
   explicit FieldSplatPass(ShaderLibrary& shaders);
   static PassDeclaration declare();
-  void record(ExactField& field, const Buffer& triangles);
+  void record(const ExactField& field, const Buffer& triangles);
 
 private:
-  std::shared_ptr<Program> clear_, splat_, parts_;
+  std::shared_ptr<Program> splat_, parts_;
 };
 
 /// Nearest triangles at half resolution, as far as the range: seeds, a distance transform in a window, a round among

@@ -1,4 +1,4 @@
-// Positions first, then everything that needs more than one triangle.
+// Positions first; then, in a pass of its own, everything that needs more than one triangle.
 #include "passes/world_field/world_triangles_pass.h"
 
 #include <algorithm>
@@ -23,9 +23,8 @@ void dispatchChunks(Program& program, std::uint32_t triangleChunks, std::uint32_
 } // namespace
 
 WorldTrianglesPass::WorldTrianglesPass(ShaderLibrary& shaders)
-    : positions_(shaders.load({"world_triangles", {{GL_COMPUTE_SHADER, "passes/world_triangles.comp.glsl"}}, {}, {}})),
-      pseudonormals_(shaders.load(
-          {"world_pseudonormals", {{GL_COMPUTE_SHADER, "passes/world_pseudonormals.comp.glsl"}}, {}, {}})) {}
+    : positions_(shaders.load({"world_triangles", {{GL_COMPUTE_SHADER, "passes/world_triangles.comp.glsl"}}, {}, {}})) {
+}
 
 PassDeclaration WorldTrianglesPass::declare() {
   return {"world_triangles",
@@ -34,13 +33,27 @@ PassDeclaration WorldTrianglesPass::declare() {
 }
 
 void WorldTrianglesPass::record(const FrameContext& context) {
-  if (!context.worldTriangles) return;
+  if (!context.worldTriangles || context.worldTriangles->triangleChunks() == 0) return;
   const WorldTriangles& world = *context.worldTriangles;
-  if (world.triangleChunks() == 0) return;
   world.bindTables();
   context.scene.meshes().vertices().bindStorage(shared::kGatherVertexBinding);
   dispatchChunks(*positions_, world.triangleChunks(), world.triangleChunks());
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+PseudonormalsPass::PseudonormalsPass(ShaderLibrary& shaders)
+    : pseudonormals_(shaders.load(
+          {"world_pseudonormals", {{GL_COMPUTE_SHADER, "passes/world_pseudonormals.comp.glsl"}}, {}, {}})) {}
+
+PassDeclaration PseudonormalsPass::declare() {
+  return {"world_pseudonormals",
+          {{Resource::WorldTriangles, Access::StorageRead}},
+          {{Resource::Pseudonormals, Access::StorageWrite}}};
+}
+
+void PseudonormalsPass::record(const FrameContext& context) {
+  if (!context.worldTriangles || context.worldTriangles->triangleChunks() == 0) return;
+  const WorldTriangles& world = *context.worldTriangles;
+  world.bindTables();
   world.bindFans();
   dispatchChunks(*pseudonormals_, world.triangleChunks(), world.triangleChunks() + world.vertexChunks());
 }

@@ -15,7 +15,18 @@ public:
   void record(const FrameContext& context);
 
 private:
-  std::shared_ptr<Program> positions_, pseudonormals_;
+  std::shared_ptr<Program> positions_;
+};
+
+/// Of the triangles that were gathered; touches nothing of them that says where they are.
+class PseudonormalsPass {
+public:
+  explicit PseudonormalsPass(ShaderLibrary& shaders);
+  static PassDeclaration declare();
+  void record(const FrameContext& context);
+
+private:
+  std::shared_ptr<Program> pseudonormals_;
 };
 
 } // namespace brickfield

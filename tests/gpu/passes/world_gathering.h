@@ -17,7 +17,8 @@ struct Gathering {
         world(source, fields, resident),
         shaders(std::filesystem::path(BRICKFIELD_SOURCE_DIR) / "shaders"),
         deform(shaders),
-        pass(shaders) {}
+        positions(shaders),
+        pseudonormals(shaders) {}
 
   /// Like WorldTriangles::setPose.
   bool set(const Pose& pose, glm::dvec3 anchor) {
@@ -29,7 +30,9 @@ struct Gathering {
     FrameContext context{resident, targets, visible, counters, none, none, DrawOrder::MeshesFirst, false, &world};
     deform.record(context);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    pass.record(context);
+    positions.record(context);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    pseudonormals.record(context);
     world.settle();
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     return world.triangles().read<shared::WorldTriangle>(0, world.triangleCount());
@@ -40,7 +43,8 @@ struct Gathering {
   WorldTriangles world;
   ShaderLibrary shaders;
   DeformPass deform;
-  WorldTrianglesPass pass;
+  WorldTrianglesPass positions;
+  PseudonormalsPass pseudonormals;
   FrameTargets targets{{4, 4}};
   VisibleBoxes visible;
   Buffer counters{"counters", 64};

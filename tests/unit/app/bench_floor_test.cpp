@@ -14,7 +14,7 @@ FieldTimes timesOf(std::uint32_t keyTiles, std::uint32_t valueTiles, std::uint32
   times.tiles = {keyTiles, valueTiles, valueTiles};
   times.drawn = triangles;
   times.sdfObjects = objects;
-  times.sumMilliseconds = 1;
+  times.milliseconds = 1;
   return times;
 }
 
