@@ -8,6 +8,7 @@
 
 #include "core/progress.h"
 #include "field/brick_field.h"
+#include "scene/brdf.h"
 #include "scene/frame_layers.h"
 #include "scene/lighting.h"
 #include "scene/view.h"
@@ -35,6 +36,7 @@ struct ReferenceRequest {
   bool shadowLayers = false;      ///< make FrameLayers::shadow, unless without shadows, of the first 32 lights
   std::optional<float> ambientOcclusionMetres{}; ///< what lies nearer hides the environment, and makes the layer
   ReferenceFields fields{};                      ///< empty: triangles alone
+  BrdfModel brdf = BrdfModel::CookTorrance;      ///< that answers direct light
 };
 
 /// The picture's expectation over seeds is that of infinitely many samples, with more than one sample a pixel; a ray

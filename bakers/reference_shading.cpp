@@ -97,8 +97,9 @@ glm::vec3 ReferenceShading::shade(const SurfaceHit& surface, const MaterialSampl
         arrivalOf(lighting_.lights[i], surface.position, samples.point(sample, SamplePurpose::Light, i));
     const float nDotL = glm::dot(normalWorld, arrival.towardsLight);
     if (nDotL <= 0.0f || arrival.irradiance == glm::vec3(0.0f)) continue;
+    const auto evaluate = request_.brdf == BrdfModel::BlinnPhong ? evaluateBlinnPhong : evaluateBrdf;
     const glm::vec3 answer =
-        evaluateBrdf(brdf, normalWorld, towardsViewer, arrival.towardsLight) * arrival.irradiance * nDotL;
+        evaluate(brdf, normalWorld, towardsViewer, arrival.towardsLight) * arrival.irradiance * nDotL;
     if (answer == glm::vec3(0.0f)) continue;
     if (request_.shadows && !isLit(surface, arrival)) continue;
     radiance += answer;

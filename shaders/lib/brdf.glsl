@@ -1,4 +1,4 @@
-// Metallic-roughness shading as glTF 2.0 appendix B defines it; twin of scene/brdf.h.
+// Metallic-roughness shading as glTF 2.0 appendix B defines it, and Blinn-Phong beside it; twin of scene/brdf.h.
 const float kPi = 3.14159265;
 
 // Trowbridge and Reitz 1975 (GGX; Walter et al. 2007). Zero below the horizon, where a viewer from below puts the
@@ -49,4 +49,16 @@ vec3 reflectedShare(Surface surface, vec3 normal, vec3 toViewer, vec3 toLight) {
   vec3 diffuse = (1.0 - fresnel) * mix(surface.baseColor, vec3(0.0), surface.metallic) / kPi;
   vec3 specular = fresnel * distributionGgx(min(dot(normal, halfway), 1.0), alpha) * visibilitySmith(nDotL, nDotV, alpha);
   return (diffuse + specular) * nDotL;
+}
+
+// The same of Blinn-Phong.
+vec3 blinnPhongShare(Surface surface, vec3 normal, vec3 toViewer, vec3 toLight) {
+  float nDotL = dot(normal, toLight);
+  if (nDotL <= 0.0) return vec3(0.0);
+  float alpha = alphaOfRoughness(surface.roughness), exponent = 2.0 / (alpha * alpha) - 2.0;
+  float nDotH = clamp(dot(normal, normalize(toLight + toViewer)), 0.0, 1.0);
+  float scale = (exponent + 2.0) * (exponent + 4.0) / (8.0 * kPi * (exp2(-0.5 * exponent) + exponent));
+  float lobe = nDotH > 0.0 ? scale * pow(nDotH, exponent) : exponent > 0.0 ? 0.0 : scale;
+  vec3 f0 = mix(vec3(0.04), surface.baseColor, surface.metallic);
+  return ((1.0 - f0) * mix(surface.baseColor, vec3(0.0), surface.metallic) / kPi + f0 * lobe) * nDotL;
 }

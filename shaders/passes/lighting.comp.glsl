@@ -15,6 +15,11 @@ layout(binding = 0, rgba16f) writeonly uniform image2D color;
 
 uniform int shadowedLights; // the first ones
 uniform bool isOccluded;
+uniform bool isBlinnPhong; // of direct light; the surroundings are always those of Cook-Torrance
+
+vec3 directShare(Surface surface, vec3 normal, vec3 toViewer, vec3 toLight) {
+  return isBlinnPhong ? blinnPhongShare(surface, normal, toViewer, toLight) : reflectedShare(surface, normal, toViewer, toLight);
+}
 
 // Irradiance that reaches a point facing the light, and the direction to it.
 vec3 lightAt(LightRow light, vec3 pointWorld, out vec3 toLight) {
@@ -51,7 +56,7 @@ vec3 rectangleLight(LightRow light, Surface surface, vec3 pointWorld, vec3 norma
     float distance2 = max(dot(offset, offset), 1e-8);
     vec3 toLight = offset * inversesqrt(distance2);
     float facing = max(dot(light.direction.xyz, -toLight), 0.0);
-    sum += facing / distance2 * reflectedShare(surface, normal, toViewer, toLight);
+    sum += facing / distance2 * directShare(surface, normal, toViewer, toLight);
   }
   return light.intensity.rgb * sum / float(SIDE * SIDE);
 }
@@ -97,7 +102,7 @@ void main() {
       }
       vec3 toLight;
       vec3 irradiance = share * lightAt(lights[i], pointWorld, toLight);
-      radiance += irradiance * reflectedShare(surface, normal, toViewer, toLight);
+      radiance += irradiance * directShare(surface, normal, toViewer, toLight);
     }
   }
   imageStore(color, pixel, vec4(min(radiance, vec3(65504.0)), 1.0));

@@ -33,6 +33,7 @@ struct ReferenceOptions {
   SdfTrace sdfTrace = SdfTrace::Unsaid;
   bool ambientOcclusion = false;
   std::optional<float> ambientOcclusionMetres;
+  BrdfModel brdf = BrdfModel::CookTorrance;
   float exposureEv = 0;
   std::optional<int> samples;
 };
@@ -79,6 +80,7 @@ int reference(const ReferenceOptions& options) {
   request.samples = samplesOf(options);
   request.seed = options.scene.seed;
   request.threads = options.scene.threads;
+  request.brdf = options.brdf;
   request.shadowLayers = !options.layers.empty();
   if (options.ambientOcclusion)
     request.ambientOcclusionMetres = options.ambientOcclusionMetres.value_or(std::numeric_limits<float>::infinity());
@@ -131,6 +133,7 @@ void addOptions(CLI::App& command, ReferenceOptions& options) {
   addCameraOptions(command, options.camera);
   addLightOptions(command, options.light);
   addTraceOptions(command, options);
+  addBrdfOption(command, options.brdf);
   addExposureOption(command, options.exposureEv);
   addPath(command, "--layers", "Depth, normals, ids, shadows and more as one multi-part .exr", options.layers);
 }

@@ -44,6 +44,7 @@ void addOptions(CLI::App& command, RenderRequest& request) {
       ->required();
   addCameraOptions(command, request.camera);
   addLightOptions(command, request.light);
+  addBrdfOption(command, request.brdf);
   addExposureOption(command, request.exposureEv);
   addValue(command, "--frames", "Frames 1/60 s apart that end at --time; the picture is the last",
            [&](auto& flag, auto& text) { request.frames = static_cast<int>(parseWhole(flag, text, 1, 100000)); })

@@ -121,6 +121,18 @@ Lighting makeLighting(const Pose& pose, const LightRequest& request) {
                       request.environment.empty() ? Environment{} : readEnvironment(request.environment));
 }
 
+void addBrdfOption(CLI::App& command, BrdfModel& model) {
+  addValue(command, "--brdf",
+           "What answers direct light: cook-torrance, as glTF defines it, the default; or blinn-phong of the same "
+           "materials, to compare with what others publish",
+           [&](auto& flag, auto& text) {
+             if (text != brdfModelName(BrdfModel::CookTorrance) && text != brdfModelName(BrdfModel::BlinnPhong))
+               throw BadInput(flag, fmt::format("\"{}\"", text), "is neither cook-torrance nor blinn-phong");
+             model = text == brdfModelName(BrdfModel::BlinnPhong) ? BrdfModel::BlinnPhong : BrdfModel::CookTorrance;
+           })
+      ->type_name("MODEL");
+}
+
 void addExposureOption(CLI::App& command, float& exposureEv) {
   addValue(command, "--exposure", "Stops by which a .png is brightened, 0 by default", [&](auto& flag, auto& text) {
     exposureEv = static_cast<float>(parseNumber(flag, text, -64, 64));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bakers/bake.h"
+#include "scene/brdf.h"
 #include "scene/lighting.h"
 #include "scene/view.h"
 
@@ -65,6 +66,9 @@ struct LightRequest {
 void addLightOptions(CLI::App& command, LightRequest& request);
 /// The environment read, the texts turned into lights. error BadInput that names the flag or file
 Lighting makeLighting(const Pose& pose, const LightRequest& request);
+
+/// --brdf
+void addBrdfOption(CLI::App& command, BrdfModel& model);
 
 /// --exposure
 void addExposureOption(CLI::App& command, float& exposureEv);

@@ -105,6 +105,7 @@ Json settingsJson(const RenderRun& run) {
     json["shadow_maps"] = {{"filter", shadowFilterName(request.shadowMaps.filter)}, {"size", request.shadowMaps.size}};
   json["taa"] = {{"on", request.taa.on}, {"sharpness", request.taa.sharpness}};
   json["ao"] = occlusionSettingsJson(request.occlusion.settings);
+  json["brdf"] = brdfModelName(request.brdf);
   json["light"] = request.light.texts.empty() ? Json("scene") : Json(request.light.texts);
   json["environment"] = request.light.environment.empty() ? "sky" : request.light.environment.string();
   json["exposure"] = request.exposureEv;

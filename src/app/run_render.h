@@ -30,6 +30,7 @@ struct RenderRequest {
   TaaSettings taa;
   OcclusionChoice occlusion; ///< settled
   FieldChoice field;         ///< settled
+  BrdfModel brdf = BrdfModel::CookTorrance;
   float exposureEv = 0;
   std::string view; ///< one of debugViews(); empty: the lit picture
   int device = -1;  ///< -1: the first that works

@@ -9,6 +9,7 @@
 #include "passes/visible_boxes.h"
 #include "resident/resident_scene.h"
 #include "resident/world_triangles.h"
+#include "scene/brdf.h"
 
 namespace brickfield {
 
@@ -36,6 +37,7 @@ struct FrameContext {
   const ShadowMaps* shadowMaps = nullptr;         ///< null: nobody asks for them
   const Temporal* temporal = nullptr;             ///< null: no temporal antialiasing
   OcclusionSettings occlusion = {};
+  BrdfModel brdf = BrdfModel::CookTorrance; ///< of direct light
 };
 
 } // namespace brickfield

@@ -420,7 +420,8 @@ void Renderer::render(const View& view) {
                              &parts.frameParams,
                              parts.settings.shadows.method == ShadowMethod::Maps ? parts.shadowMaps.get() : nullptr,
                              parts.temporal.get(),
-                             parts.settings.occlusion};
+                             parts.settings.occlusion,
+                             parts.settings.brdf};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDisable(GL_BLEND);
   glEnable(GL_FRAMEBUFFER_SRGB); // albedo is stored as sRGB; the other targets are linear and unaffected

@@ -12,6 +12,7 @@
 #include "passes/light/shadow_settings.h"
 #include "passes/post/temporal.h"
 #include "passes/world_field/rtsdf_settings.h"
+#include "scene/brdf.h"
 
 namespace brickfield {
 
@@ -48,6 +49,7 @@ struct RendererSettings {
   ShadowMapSettings shadowMaps; ///< where the method is of maps
   TaaSettings taa;
   OcclusionSettings occlusion; ///< as the shadows: any form makes a world field in each frame
+  BrdfModel brdf = BrdfModel::CookTorrance; ///< that answers direct light
   FieldSettings worldField;
   FieldSlice fieldSlice;
 };

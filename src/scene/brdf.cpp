@@ -2,6 +2,7 @@
 #include "scene/brdf.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace brickfield {
@@ -46,6 +47,21 @@ glm::vec3 evaluateBrdf(const SurfaceBrdf& brdf, glm::vec3 normal, glm::vec3 towa
   const glm::vec3 fresnel = fresnelSchlick(brdf.f0, glm::dot(towardsViewer, halfway));
   const float lobe = distributionGgx(brdf.alpha, glm::dot(normal, halfway)) * visibilitySmith(brdf.alpha, nDotL, nDotV);
   return (1.0f - fresnel) * brdf.diffuse / kPi + fresnel * lobe;
+}
+
+const char* brdfModelName(BrdfModel model) {
+  return model == BrdfModel::BlinnPhong ? "blinn-phong" : "cook-torrance";
+}
+
+float blinnPhongExponent(float alpha) { return 2.0f / (alpha * alpha) - 2.0f; }
+
+glm::vec3 evaluateBlinnPhong(const SurfaceBrdf& brdf, glm::vec3 normal, glm::vec3 towardsViewer,
+                             glm::vec3 towardsLight) {
+  if (glm::dot(normal, towardsLight) <= 0.0f) return glm::vec3(0.0f);
+  const float exponent = blinnPhongExponent(brdf.alpha);
+  const float nDotH = std::clamp(glm::dot(normal, glm::normalize(towardsViewer + towardsLight)), 0.0f, 1.0f);
+  const float scale = (exponent + 2.0f) * (exponent + 4.0f) / (8.0f * kPi * (std::exp2(-0.5f * exponent) + exponent));
+  return (1.0f - brdf.f0) * brdf.diffuse / kPi + brdf.f0 * (scale * std::pow(nDotH, exponent));
 }
 
 float distanceFalloff(float distance, float range) {

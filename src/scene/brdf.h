@@ -1,6 +1,9 @@
-// How surfaces answer light: the metallic-roughness BRDF of glTF 2.0, appendix B. Twin of shaders/lib/brdf.glsl; the
-// reference shades with it. Only formulas: no scene, no textures. All vectors are unit and of one space.
+// How surfaces answer light: the metallic-roughness BRDF of glTF 2.0, appendix B, and Blinn-Phong of the same materials,
+// to compare with what others publish. Twin of shaders/lib/brdf.glsl; the reference shades with it. Only formulas: no
+// scene, no textures. All vectors are unit and of one space.
 #pragma once
+
+#include <cstdint>
 
 #include "core/math.h"
 
@@ -37,6 +40,24 @@ glm::vec3 fresnelSchlick(glm::vec3 f0, float vDotH);
 /// returns   per steradian; symmetric in two directions above the horizon
 /// proved by tests/unit/scene/brdf_test.cpp
 glm::vec3 evaluateBrdf(const SurfaceBrdf& brdf, glm::vec3 normal, glm::vec3 towardsViewer, glm::vec3 towardsLight);
+
+/// Which of the two answers direct light.
+enum class BrdfModel : std::uint8_t { CookTorrance, BlinnPhong };
+/// "cook-torrance", "blinn-phong"
+const char* brdfModelName(BrdfModel model);
+
+/// Exponent of Blinn-Phong whose lobe is about as wide as that of GGX: 2 / alpha^2 - 2 (Walter et al. 2007, 5.2, of
+/// Beckmann's).
+float blinnPhongExponent(float alpha);
+
+/// Blinn 1977, without the cosine: (1 - f0) c_diff / pi + f0 N (N.H)^s, neither masked nor brighter aside. N makes it
+/// return f0, no more and no less, to a viewer who looks straight on: (s + 2) (s + 4) / (8 pi (2^(-s/2) + s)). Zero where
+/// the light is below the horizon.
+///
+/// returns   per steradian; symmetric in two directions above the horizon
+/// proved by tests/unit/scene/brdf_test.cpp
+glm::vec3 evaluateBlinnPhong(const SurfaceBrdf& brdf, glm::vec3 normal, glm::vec3 towardsViewer,
+                             glm::vec3 towardsLight);
 
 /// What a white environment returns through the specular lobe is f0 * x + y (Karis, "Real Shading in Unreal Engine 4",
 /// 2013), from a table that is integrated at the first call.

@@ -4,6 +4,7 @@
 #include <bit>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "app/tone_curve.h"
@@ -118,6 +119,29 @@ TEST_F(LightingTruths, SlantedSunFollowsTheBrdf) {
   }
   expectRadiance(middleRadiance(diffuse(glm::vec3(1)), {{sun(kPi, {0, 0, 1})}, uniformEnvironment(0)}), glm::vec3(0),
                  "from behind");
+}
+
+// Of a plane seen straight on under a sun by its side: the formula, and not that of Cook-Torrance.
+TEST_F(LightingTruths, BlinnPhongAnswersWhereItIsAskedFor) {
+  RendererSettings settings;
+  settings.brdf = BrdfModel::BlinnPhong;
+  int unlike = 0;
+  for (const float roughness : {1.0f, 0.6f, 0.2f})
+    for (const float degrees : {0.0f, 10.0f, 45.0f}) {
+      Material material = diffuse(glm::vec3(1));
+      material.roughness = roughness;
+      const glm::vec3 toSun(std::sin(glm::radians(degrees)), 0, std::cos(glm::radians(degrees)));
+      const Scene scene = planeScene(material);
+      const auto renderer = rendererOf(scene, {{sun(kPi, -toSun)}, uniformEnvironment(0)}, {}, settings);
+      renderer->render(middleView());
+      const SurfaceBrdf brdf = makeBrdf(glm::vec3(1), 0, roughness);
+      const glm::vec3 up(0, 0, 1), expected = evaluateBlinnPhong(brdf, up, up, toSun) * (kPi * toSun.z);
+      const std::string name = fmt::format("roughness {} at {} degrees", roughness, degrees);
+      expectRadiance(renderer->readLayers().color[40], expected, name);
+      const glm::vec3 other = evaluateBrdf(brdf, up, up, toSun) * (kPi * toSun.z);
+      unlike += std::abs(other.x - expected.x) > 5 * kHalfRelative * expected.x;
+    }
+  EXPECT_GE(unlike, 3) << "the two models are told apart";
 }
 
 TEST_F(LightingTruths, PointLightFallsOffByTheSquare) {

@@ -101,12 +101,14 @@ Scene litCrowd() {
 
 class ShadedColor : public GlTest {
 protected:
-  void expectAgreement(const std::string& name, const TestScene& scene, const View& view,
-                       const CodeDifferences& bound) {
-    const auto renderer = scene.makeRenderer(context().info());
+  void expectAgreement(const std::string& name, const TestScene& scene, const View& view, const CodeDifferences& bound,
+                       BrdfModel brdf = BrdfModel::CookTorrance) {
+    RendererSettings settings;
+    settings.brdf = brdf;
+    const auto renderer = scene.makeRenderer(context().info(), settings);
     renderer->render(view);
     const FrameLayers frame = renderer->readLayers();
-    const CodeDifferences codes = differenceInCodes(frame, scene.reference(view, false));
+    const CodeDifferences codes = differenceInCodes(frame, scene.reference(view, false, brdf));
     fmt::print("{}: mean {:.3f}, 99 % {:.2f} codes of 255, {} pixels\n", name, codes.mean, codes.p99, codes.pixels);
     ASSERT_GT(codes.pixels, 5000u) << name;
     EXPECT_LE(codes.mean, bound.mean) << name;
@@ -122,6 +124,7 @@ TEST_F(ShadedColor, OfAllMaterialsAndLightsIsTheReferences) {
   expectAgreement("crowd", scene, view, kWithSky);
   scene.darkenEnvironment();
   expectAgreement("crowd, black surroundings", scene, view, kLightsAlone);
+  expectAgreement("crowd by Blinn-Phong, black surroundings", scene, view, kLightsAlone, BrdfModel::BlinnPhong);
 }
 
 TEST_F(ShadedColor, OfRealScenesIsTheReferences) {

@@ -54,13 +54,14 @@ View TestScene::view(glm::vec3 eye, glm::vec3 target, glm::uvec2 sizePixels, flo
   return makeView(*scene_, pose_, request);
 }
 
-FrameLayers TestScene::reference(const View& view, bool shadows) const {
+FrameLayers TestScene::reference(const View& view, bool shadows, BrdfModel brdf) const {
   ReferenceRequest request;
   request.scene = scene_.get();
   request.pose = &pose_;
   request.view = &view;
   request.lighting = &lighting_;
   request.shadows = shadows;
+  request.brdf = brdf;
   request.isSdf = [this](int node) { return isSdf(node); };
   return traceReference(request);
 }

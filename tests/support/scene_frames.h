@@ -9,6 +9,7 @@
 
 #include "bakers/bake.h"
 #include "renderer/renderer.h"
+#include "scene/brdf.h"
 #include "scene/frame_layers.h"
 #include "scene/view.h"
 
@@ -36,7 +37,7 @@ public:
   View view(glm::vec3 eye, glm::vec3 target, glm::uvec2 sizePixels, float fovDegrees = 45) const;
 
   /// shadows false: lit as the renderer lights, which has none
-  FrameLayers reference(const View& view, bool shadows = true) const;
+  FrameLayers reference(const View& view, bool shadows = true, BrdfModel brdf = BrdfModel::CookTorrance) const;
   /// Uploads into a renderer of its own on the current context.
   std::unique_ptr<Renderer> makeRenderer(const ContextInfo& info, const RendererSettings& settings = {}) const;
 

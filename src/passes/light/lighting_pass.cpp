@@ -30,6 +30,7 @@ void LightingPass::record(const FrameContext& context) {
   const bool isOccluded = context.occlusion.form != OcclusionForm::Off;
   if (isOccluded) context.targets.occlusion.bind(shared::kOcclusionUnit);
   program_->set("isOccluded", isOccluded);
+  program_->set("isBlinnPhong", context.brdf == BrdfModel::BlinnPhong);
   context.targets.color.bindImage(0, 0, GL_WRITE_ONLY);
   program_->dispatchOver({context.targets.color.width(), context.targets.color.height(), 1});
 }

@@ -81,6 +81,35 @@ TEST_F(ShaderTwins, ReflectedShareIsTheBrdfTimesTheCosine) {
   EXPECT_GT(below, kCount / 20);
 }
 
+// A power of s takes n.h's rounding of 1e-7 s times, and GPUs take powers by 2^(s log2 x), whose log2 is off by 1e-6 or so.
+TEST_F(ShaderTwins, BlinnPhongShareIsTheTwinTimesTheCosine) {
+  const auto program = bench_.load("#include \"lib/brdf.glsl\"", R"(
+  vec4 a = inputs[index * 4u], n = inputs[index * 4u + 1u], v = inputs[index * 4u + 2u], l = inputs[index * 4u + 3u];
+  outputs[index] = vec4(blinnPhongShare(Surface(a.rgb, a.w, n.w), n.xyz, v.xyz, l.xyz), 0.0);)");
+  constexpr std::size_t kCount = 20000;
+  std::vector<glm::vec4> inputs;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const glm::vec3 n = random_.direction(), v = random_.direction(), mirrored = glm::reflect(-v, n);
+    const glm::vec3 l = i % 3 ? random_.direction() : glm::normalize(mirrored + 0.1f * random_.direction());
+    const float roughness = i % 7 == 0 ? 1.0f : random_.between(0.1f, 1);
+    inputs.insert(inputs.end(), {glm::vec4(random_.color(), random_.between(0, 1)), glm::vec4(n, roughness),
+                                 glm::vec4(v, 0), glm::vec4(l, 0)});
+  }
+  const auto outputs = ShaderBench::run(*program, inputs, kCount, 1);
+  std::size_t lit = 0;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const glm::vec4 a = inputs[4 * i], n = inputs[4 * i + 1], v = inputs[4 * i + 2], l = inputs[4 * i + 3];
+    const SurfaceBrdf brdf = makeBrdf(glm::vec3(a), a.w, n.w);
+    const float cosine = std::max(0.0f, glm::dot(glm::vec3(n), glm::vec3(l)));
+    const glm::vec3 expected = evaluateBlinnPhong(brdf, glm::vec3(n), glm::vec3(v), glm::vec3(l)) * cosine;
+    lit += expected.x > 0;
+    const float relative = 2e-5f + 2e-6f * blinnPhongExponent(brdf.alpha);
+    for (int c = 0; c < 3; ++c)
+      ASSERT_NEAR(outputs[i][c], expected[c], std::max(1e-6f, relative * expected[c])) << i << " alpha " << brdf.alpha;
+  }
+  EXPECT_GT(lit, kCount / 3);
+}
+
 TEST_F(ShaderTwins, LobesAreTheTwins) {
   const auto program = bench_.load("#include \"lib/brdf.glsl\"", R"(
   vec4 a = inputs[index];

@@ -77,6 +77,7 @@ struct Parsed {
   SceneRequest scene;
   CameraRequest camera;
   LightRequest light;
+  BrdfModel brdf = BrdfModel::CookTorrance;
   float exposureEv = 0;
 };
 
@@ -86,6 +87,7 @@ Parsed parse(std::vector<std::string> arguments) {
   addSceneOptions(app, parsed.scene);
   addCameraOptions(app, parsed.camera);
   addLightOptions(app, parsed.light);
+  addBrdfOption(app, parsed.brdf);
   addExposureOption(app, parsed.exposureEv);
   std::reverse(arguments.begin(), arguments.end());
   app.parse(arguments);
@@ -126,6 +128,8 @@ TEST(SharedOptions, FillTheirRequests) {
                                "sphere:1,2,3:0.1:5",
                                "--environment",
                                "sky.hdr",
+                               "--brdf",
+                               "blinn-phong",
                                "--exposure",
                                "-1.5"});
   EXPECT_EQ(parsed.scene.path, "scene.glb");
@@ -143,6 +147,7 @@ TEST(SharedOptions, FillTheirRequests) {
   EXPECT_EQ(parsed.camera.verticalFovDegrees, 40.0f);
   EXPECT_THAT(parsed.light.texts, ElementsAre("sun:0,-1,0:0.5:3", "sphere:1,2,3:0.1:5"));
   EXPECT_EQ(parsed.light.environment, "sky.hdr");
+  EXPECT_EQ(parsed.brdf, BrdfModel::BlinnPhong);
   EXPECT_EQ(parsed.exposureEv, -1.5f);
 }
 
@@ -153,6 +158,12 @@ TEST(SharedOptions, AreOptional) {
   EXPECT_FALSE(parsed.scene.cacheFolder);
   EXPECT_EQ(parsed.camera.sizePixels, glm::uvec2(1280, 720));
   EXPECT_TRUE(parsed.light.texts.empty());
+  EXPECT_EQ(parsed.brdf, BrdfModel::CookTorrance);
+  EXPECT_EQ(parse({"scene.glb", "--brdf", "cook-torrance"}).brdf, BrdfModel::CookTorrance);
+  EXPECT_THAT(refusalOf([] {
+                parse({"scene.glb", "--brdf", "phong"});
+              }),
+              AllOf(HasSubstr("--brdf: "), HasSubstr("phong"), HasSubstr("blinn-phong")));
 }
 
 TEST(CheckCamera, WantsEyeAndTargetTogether) {

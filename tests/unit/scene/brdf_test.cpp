@@ -122,6 +122,41 @@ TEST(Brdf, WhiteDielectricExceedsItsFurnaceOnlyAtGrazingView) {
     }
 }
 
+// Seen straight on the half vector lies halfway to the light, so of the lobe alone
+//   2 pi N \int_0^1 ((1 + c) / 2)^(s/2) c dc = f0
+// in closed form; the sum over the hemisphere must say so, too.
+TEST(Brdf, BlinnPhongSendsF0BackToWhoLooksStraightOn) {
+  for (const float roughness : {0.1f, 0.3f, 0.6f, 1.0f}) {
+    const SurfaceBrdf mirror = makeBrdf({0.9f, 0.5f, 0.2f}, 1.0f, roughness);
+    const SurfaceBrdf plastic = makeBrdf({0.9f, 0.5f, 0.2f}, 0.0f, roughness);
+    glm::dvec3 fromMirror(0), fromPlastic(0);
+    constexpr int kSteps = 400000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double cosine = (i + 0.5) / kSteps;
+      const glm::vec3 light = directionOf(cosine, 0.3);
+      const double weight = 2 * kPi * light.z / kSteps;
+      fromMirror += weight * glm::dvec3(evaluateBlinnPhong(mirror, kNormal, kNormal, light));
+      fromPlastic += weight * glm::dvec3(evaluateBlinnPhong(plastic, kNormal, kNormal, light));
+    }
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(fromMirror[c], double{mirror.f0[c]}, 2e-3) << roughness;
+      EXPECT_NEAR(fromPlastic[c], 0.04 + 0.96 * double{plastic.diffuse[c]}, 2e-3) << roughness;
+    }
+  }
+}
+
+TEST(Brdf, BlinnPhongIsSymmetricAndDarkBelowTheHorizon) {
+  EXPECT_EQ(blinnPhongExponent(1.0f), 0.0f);
+  EXPECT_NEAR(blinnPhongExponent(0.1f), 198.0f, 1e-3f);
+  const SurfaceBrdf brdf = makeBrdf({0.8f, 0.5f, 0.2f}, 0.5f, 0.4f);
+  for (int i = 0; i < 50; ++i) {
+    const glm::vec3 a = directionOf(0.02 + 0.0195 * i, 0.7 * i), b = directionOf(0.99 - 0.019 * i, 1.9 * i);
+    const glm::vec3 forth = evaluateBlinnPhong(brdf, kNormal, a, b), back = evaluateBlinnPhong(brdf, kNormal, b, a);
+    EXPECT_NEAR(forth.x, back.x, 1e-5f * (1.0f + forth.x));
+  }
+  EXPECT_EQ(evaluateBlinnPhong(brdf, kNormal, directionOf(0.5, 0), directionOf(-0.1, 1)), glm::vec3(0.0f));
+}
+
 TEST(Brdf, EnvironmentTableIsItsIntegral) {
   double worst = 0.0;
   for (const float roughness : {0.1f, 0.3f, 0.5f, 0.7f, 1.0f})
