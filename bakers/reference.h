@@ -19,6 +19,9 @@ namespace brickfield {
 struct ReferenceFields {
   const std::vector<BrickField>* fields = nullptr;
   const std::vector<int>* fieldOfNode = nullptr; ///< as many as nodes; -1: its triangles
+  /// Of nodes whose fields have no attributes: metres that the textures of their mesh's first material span, projected
+  /// along the axes of object space; 0, or nothing at all: white and rough.
+  const std::vector<float>* triplanarOfNode = nullptr;
 };
 
 struct ReferenceRequest {

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "field/surface_attributes.h"
+#include "scene/triplanar.h"
 
 namespace brickfield {
 
@@ -101,6 +102,30 @@ SurfaceHit fieldHit(const BrickField& field, int node, const glm::mat4& worldFro
   surface.fieldMaterial = materialOfField(attributes);
   surface.isUnlit = attributes.unlit;
   return surface;
+}
+
+void textureField(const FieldTexturing& texturing, const glm::mat4& worldFromObject, const RayBundle& rays,
+                  SurfaceHit& surface) {
+  constexpr float kLeastFacing = 0.05f; // as in shaders/passes/triplanar.frag.glsl
+  const glm::dmat4 objectFromWorld = glm::inverse(glm::dmat4(worldFromObject));
+  const glm::vec3 normalWorld = surface.normalTriangle;
+  const bool isBack = glm::dot(normalWorld, rays.center.directionWorld) > 0;
+  const glm::vec3 towardsViewer = isBack ? -normalWorld : normalWorld;
+  TriplanarPoint at;
+  at.pointObject = glm::vec3(objectFromWorld * glm::dvec4(glm::dvec3(surface.position), 1));
+  at.normalObject = glm::normalize(glm::transpose(glm::mat3(worldFromObject)) * towardsViewer);
+  for (int side = 0; side < 2; ++side) {
+    const PrimaryRay& ray = side == 0 ? rays.right : rays.down;
+    const float facing = std::min(glm::dot(ray.directionWorld, towardsViewer), -kLeastFacing);
+    const float way = glm::dot(surface.position - ray.originWorld, towardsViewer) / facing;
+    const glm::vec3 offsetWorld = ray.originWorld + way * ray.directionWorld - surface.position;
+    at.footprintObject[static_cast<std::size_t>(side)] = glm::mat3(objectFromWorld) * offsetWorld;
+  }
+  const TriplanarSample sample = sampleTriplanar(*texturing.sampler, *texturing.material, at, texturing.metres);
+  surface.fieldMaterial = sample.material;
+  surface.isUnlit = texturing.material->unlit;
+  const glm::vec3 mapped = glm::normalize(glm::transpose(glm::mat3(objectFromWorld)) * sample.normalObject);
+  surface.normalMapped = isBack ? -mapped : mapped;
 }
 
 } // namespace brickfield

@@ -17,4 +17,16 @@ void attachField(RTCDevice device, RTCScene scene, const BrickField& field);
 SurfaceHit fieldHit(const BrickField& field, int node, const glm::mat4& worldFromObject, const PrimaryRay& ray,
                     float distance);
 
+/// Where the textures of a field without attributes come from; metres 0: from nowhere.
+struct FieldTexturing {
+  const TextureSampler* sampler = nullptr;
+  const Material* material = nullptr;
+  float metres = 0; ///< as sampleTriplanar takes them
+};
+
+/// Renews what fieldHit said of attributes and of the shading normal, filtered over the footprint that the rays span on
+/// the surface's plane.
+void textureField(const FieldTexturing& texturing, const glm::mat4& worldFromObject, const RayBundle& rays,
+                  SurfaceHit& surface);
+
 } // namespace brickfield

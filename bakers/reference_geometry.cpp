@@ -56,6 +56,7 @@ struct Placement {
   int node = -1;
   const Shape* shape = nullptr;
   glm::mat4 worldFromObject{1.0f};
+  FieldTexturing texturing;
 };
 
 /// What filters need beside the ray. Its first member is what Embree hands on.
@@ -246,7 +247,7 @@ struct ReferenceGeometry::Device {
   const Shape* addShape(const Scene& scene, int mesh, std::vector<std::unique_ptr<DeformedPrimitive>> deformed,
                         const TextureSampler& sampler, const Progress& progress);
   const Shape* addField(const BrickField& field, const Progress& progress);
-  void place(int node, const Shape* shape, const glm::mat4& worldFromObject);
+  void place(int node, const Shape* shape, const glm::mat4& worldFromObject, const FieldTexturing& texturing = {});
 };
 
 const Shape* ReferenceGeometry::Device::addShape(const Scene& scene, int mesh,
@@ -286,14 +287,27 @@ const Shape* ReferenceGeometry::Device::addField(const BrickField& field, const 
   return shapes.back().get();
 }
 
-void ReferenceGeometry::Device::place(int node, const Shape* shape, const glm::mat4& worldFromObject) {
+void ReferenceGeometry::Device::place(int node, const Shape* shape, const glm::mat4& worldFromObject,
+                                      const FieldTexturing& texturing) {
   GeometryHandle geometry(rtcNewGeometry(handle.get(), RTC_GEOMETRY_TYPE_INSTANCE));
   rtcSetGeometryInstancedScene(geometry.get(), shape->scene.get());
   rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &worldFromObject[0][0]);
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometryByID(top.get(), geometry.get(), static_cast<unsigned>(placements.size()));
-  placements.push_back({node, shape, worldFromObject});
+  placements.push_back({node, shape, worldFromObject, texturing});
 }
+
+namespace {
+FieldTexturing texturingOf(const Scene& scene, const PosedInstance& instance, const ReferenceFields& fields,
+                           const TextureSampler& sampler) {
+  const std::vector<float>* metres = fields.triplanarOfNode;
+  if (!metres || metres->empty()) return {};
+  static const Primitive kNone;
+  const std::vector<Primitive>& primitives = scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives;
+  const Primitive& first = primitives.empty() ? kNone : primitives.front();
+  return {&sampler, &materialOf(scene, first), (*metres)[static_cast<std::size_t>(instance.node)]};
+}
+} // namespace
 
 ReferenceGeometry::ReferenceGeometry(const Scene& scene, const Pose& pose, const ReferenceFields& fields,
                                      const TextureSampler& sampler, const Progress& progress)
@@ -311,7 +325,7 @@ ReferenceGeometry::ReferenceGeometry(const Scene& scene, const Pose& pose, const
     if (field >= 0 && isInvertible(instance.worldFromObject)) {
       const Shape*& shape = shapeOfField[static_cast<std::size_t>(field)];
       if (!shape) shape = device_->addField((*fields.fields)[static_cast<std::size_t>(field)], progress);
-      device_->place(instance.node, shape, instance.worldFromObject);
+      device_->place(instance.node, shape, instance.worldFromObject, texturingOf(scene, instance, fields, sampler));
       continue;
     }
     const std::vector<Primitive>& primitives = scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives;
@@ -355,8 +369,12 @@ std::optional<SurfaceHit> ReferenceGeometry::trace(const RayBundle& rays) const 
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
   const Placement& placement = device_->placements[query.hit.instID[0]];
-  if (placement.shape->field)
-    return fieldHit(*placement.shape->field, placement.node, placement.worldFromObject, ray, query.ray.tfar);
+  if (placement.shape->field) {
+    SurfaceHit hit =
+        fieldHit(*placement.shape->field, placement.node, placement.worldFromObject, ray, query.ray.tfar);
+    if (placement.texturing.metres > 0) textureField(placement.texturing, placement.worldFromObject, rays, hit);
+    return hit;
+  }
   const Part& part = *placement.shape->parts[query.hit.geomID];
   const std::array<glm::vec3, 3> corners = part.corners(query.hit.primID);
   const glm::vec2 barycentric(query.hit.u, query.hit.v);

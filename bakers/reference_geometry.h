@@ -38,6 +38,7 @@ struct SurfaceHit {
   MaterialPoint materialPoint; ///< with the footprint of the bundle
   /// Of a field: what its bricks store; material is the default one then.
   std::optional<MaterialSample> fieldMaterial;
+  std::optional<glm::vec3> normalMapped; ///< of a textured field: unit, on normalVertex' side
   bool isUnlit = false;
 };
 

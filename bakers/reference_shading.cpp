@@ -115,6 +115,7 @@ glm::vec3 shadingNormal(const SurfaceHit& surface, const MaterialSample& materia
     const float length = glm::length(bent);
     if (length > 0.0f) normal = bent / length;
   }
+  if (surface.normalMapped) normal = *surface.normalMapped;
   return surface.isBackFace ? -normal : normal;
 }
 

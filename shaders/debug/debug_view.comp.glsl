@@ -2,14 +2,21 @@
 #include "lib/debug_colors.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/tone_curve.glsl"
+#include "shared/sdf_params.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+layout(std430, binding = kSdfInstanceBinding) readonly buffer SdfInstanceBlock { SdfInstance sdfInstances[]; };
 layout(binding = kOverdrawUnit) uniform sampler2D box_overdraw;
 layout(binding = kShadowUnit) uniform sampler2D shadow;
 layout(binding = kShadowReadsUnit) uniform usampler2D shadow_reads;
 layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 layout(binding = 0, rgba8) writeonly uniform image2D picture;
+
+uint nodeOfId(uint packedId) {
+  uint number = numberOfId(packedId);
+  return kindOfId(packedId) == KIND_SDF ? uint(sdfInstances[number].ids.x) : number;
+}
 
 float viewUnit(float value) { return (value - frame.debugRange.x) / max(frame.debugRange.y - frame.debugRange.x, 1e-6); }
 

@@ -133,10 +133,10 @@ void main() {
   vec2 normalOct = octahedralFromDirection(normalWorld);
   normal_world_oct = vec4(normalOct, normalOct);
 
-  id = packId(uint(instance.ids.x), KIND_SDF);
+  id = packId(entry & VISIBLE_INDEX_MASK, KIND_SDF);
   ivec3 brick = brickOfPoint(level, pointLevel);
   uint brickNumber = (uint(brick.z) * level.cells.z + uint(brick.y)) * level.cells.y + uint(brick.x);
-  trace = uvec2(hit.steps, brickNumber + 1u);
+  trace = uvec2(hit.steps, packBrick(brickNumber + 1u, (entry >> VISIBLE_LEVEL_SHIFT) & VISIBLE_LEVEL_MASK));
 #endif
 #ifdef MOTION_ON
   SdfMotion then = sdfMotions[entry & VISIBLE_INDEX_MASK];

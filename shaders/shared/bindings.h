@@ -14,6 +14,7 @@ SHARED_CONST uint kMaterialBinding = 1;
 SHARED_CONST uint kSdfInstanceBinding = 2;
 SHARED_CONST uint kSdfLevelBinding = 3;
 SHARED_CONST uint kIndirectionBinding = 4;
+SHARED_CONST uint kSdfLookBinding = 5; // where no mesh has motion vectors
 SHARED_CONST uint kLightBinding = 1;       // of passes that know no materials
 SHARED_CONST uint kPassBufferABinding = 6; // what one pass alone uses
 SHARED_CONST uint kPassBufferBBinding = 7;

@@ -20,6 +20,13 @@ struct SdfMotion {
 };
 SHARED_ASSERT_SIZE(SdfMotion, 48)
 
+// What an SDF object looks like beside its own attributes; a row for each that is drawn.
+struct SdfLook {
+  vec4 objectFromGrid; // xyz: where sample 0 lies in object space; w: metres of object space a voxel
+  vec4 texturing;      // x: metres of object space that triplanar textures span, 0: none; y: row of their material
+};
+SHARED_ASSERT_SIZE(SdfLook, 32)
+
 SHARED_CONST uint SDF_DOUBLE_SIDED = 1;
 
 struct SdfLevel {

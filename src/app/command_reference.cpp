@@ -91,7 +91,8 @@ int reference(const ReferenceOptions& options) {
     if (tracesFields(options)) {
       const std::filesystem::path cache = options.scene.cacheFolder ? *options.scene.cacheFolder : defaultCacheFolder();
       baked = bakeSceneFields(scene, pose, sdf, cache, bar.progress());
-      request.fields = {&baked.fields.fields, &baked.fields.fieldOfNode};
+      baked.fields.triplanarOfNode = triplanarNodes(scene, options.scene.sdf);
+      request.fields = {&baked.fields.fields, &baked.fields.fieldOfNode, &baked.fields.triplanarOfNode};
     } else {
       request.isSdf = [&](int node) { return node >= 0 && sdf[static_cast<std::size_t>(node)].has_value(); };
     }

@@ -60,6 +60,15 @@ void addSceneOptions(CLI::App& command, SceneRequest& request) {
   addValue(command, "--resolution", "Voxels along the longest side of every SDF object, 8 to 1024; wins over extras",
            [&](auto& flag, auto& text) { request.sdf.resolution = static_cast<int>(parseWhole(flag, text, 8, 1024)); })
       ->type_name("N");
+  addValue(command, "--triplanar",
+           "SDF objects take the textures of their mesh's first material, projected along the axes of object space and "
+           "repeated every so many metres of it, in place of baked attributes; wins over extras",
+           [&](auto& flag, auto& text) {
+             const double metres = parseNumber(flag, text, 0, 1e12);
+             if (!(metres > 0)) throw BadInput(flag, text, "is not above 0");
+             request.sdf.triplanarMetres = static_cast<float>(metres);
+           })
+      ->type_name("M");
   addMemoryOption(command, request.sdf);
   addValue(command, "--cache", "Folder of baked bricks; absent: the user's cache folder", [&](auto& flag, auto& text) {
     if (text.empty()) throw BadInput(flag, "", "names no folder");
@@ -145,9 +154,17 @@ BakeSettings bakeSettingsOf(const Node& node, const SdfRequest& request, int thr
   settings.bits = node.sdf.bits.value_or(settings.bits);
   settings.sign = node.sdf.sign.value_or(settings.sign);
   settings.thickness = node.sdf.thickness.value_or(settings.thickness);
+  settings.attributes = !request.triplanarMetres && !node.sdf.triplanar;
   settings.threads = threads;
   settings.memoryBytes = request.memoryBytes.value_or(defaultMemoryBytes());
   return settings;
+}
+
+std::vector<float> triplanarNodes(const Scene& scene, const SdfRequest& request) {
+  std::vector<float> metres;
+  for (const Node& node : scene.nodes)
+    metres.push_back(request.triplanarMetres.value_or(node.sdf.triplanar.value_or(0.0f)));
+  return metres;
 }
 
 namespace {

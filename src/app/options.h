@@ -35,6 +35,7 @@ CLI::Option* addName(CLI::App& command, const std::string& flag, const std::stri
 struct SdfRequest {
   std::vector<std::string> patterns; ///< "all", "none" or globs of node names; empty: what the scene's extras say
   std::optional<int> resolution;     ///< of every SDF node; wins over its extras
+  std::optional<float> triplanarMetres{};     ///< of every SDF node; wins over its extras
   std::optional<std::uint64_t> memoryBytes{}; ///< that a bake may take; nothing: most of the machine's
 };
 
@@ -50,7 +51,7 @@ struct SceneRequest {
   int threads = 0;                                  ///< 0: all
   std::uint64_t seed = 0;
 };
-/// SCENE --time --animation --sdf --resolution --memory --cache --threads --seed
+/// SCENE --time --animation --sdf --resolution --triplanar --memory --cache --threads --seed
 void addSceneOptions(CLI::App& command, SceneRequest& request);
 
 /// --size --camera --eye --target --fov
@@ -82,6 +83,12 @@ BakeSettings bakeSettingsOf(const Node& node, const SdfRequest& request, int thr
 /// error     BadInput that names --sdf and the pattern that matches no node with a mesh, or "all" or "none" beside
 /// others proved by tests/unit/app/options_test.cpp
 std::vector<std::optional<BakeSettings>> sdfNodes(const Scene& scene, const SdfRequest& request, int threads);
+
+/// Metres of object space that a node's textures span where they are projected onto its SDF object; 0 where its field
+/// has attributes of its own.
+///
+/// returns   as many as nodes
+std::vector<float> triplanarNodes(const Scene& scene, const SdfRequest& request);
 
 /// A file that a command will write.
 struct OutputPath {

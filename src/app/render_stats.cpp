@@ -89,6 +89,7 @@ Json settingsJson(const RenderRun& run) {
   json["trace"] = "boxes"; // what auto chooses too
   json["sdf"] = sdf.patterns.empty() ? Json("extras") : Json(sdf.patterns);
   json["resolution"] = valueOr(sdf.resolution, "extras");
+  json["triplanar"] = valueOr(sdf.triplanarMetres, "extras");
   json["shadows"] = shadowName(request.shadows);
   if (request.shadows == ShadowChoice::Field) {
     const ShadowSettings& shadows = request.fieldShadows.settings;

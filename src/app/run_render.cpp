@@ -55,6 +55,7 @@ SceneFieldsResult bakeFields(const RenderRequest& request, const Scene& scene, c
   const std::filesystem::path cache = request.scene.cacheFolder ? *request.scene.cacheFolder : defaultCacheFolder();
   ProgressBar bar;
   SceneFieldsResult result = bakeSceneFields(scene, pose, settings, cache, bar.progress());
+  result.fields.triplanarOfNode = triplanarNodes(scene, request.scene.sdf);
   if (request.fieldShadows.brickVoxels > 0) {
     const ShadowBrickRequest bricks{request.fieldShadows.brickVoxels,
                                     request.scene.sdf.memoryBytes.value_or(defaultMemoryBytes()), request.scene.threads,

@@ -34,6 +34,10 @@ FrameTargets::FrameTargets(glm::uvec2 sizePixels)
                           {GL_COLOR_ATTACHMENT4, &id},
                           {GL_COLOR_ATTACHMENT5, &trace},
                           {GL_DEPTH_ATTACHMENT, &depth}}),
+      surface("surface", {{GL_COLOR_ATTACHMENT0, &normalWorldOct},
+                          {GL_COLOR_ATTACHMENT1, &albedo},
+                          {GL_COLOR_ATTACHMENT2, &material},
+                          {GL_COLOR_ATTACHMENT3, &emission}}),
       overdraw("box_overdraw", {{GL_COLOR_ATTACHMENT0, &boxOverdraw}}) {}
 
 void FrameTargets::fitOcclusion(int scale) {

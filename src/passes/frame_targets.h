@@ -18,8 +18,8 @@ struct FrameTargets {
   Texture albedo;          ///< SRGB8_A8
   Texture material;        ///< RGBA8: metallic, roughness, occlusion, unlit
   Texture emission;        ///< R11F_G11F_B10F
-  Texture id;              ///< R32UI: node << 2 | kind
-  Texture trace;           ///< RG32UI: trace steps, number of the brick that was hit + 1
+  Texture id;              ///< R32UI: node or SDF instance << 2 | kind, lib/packing.glsl
+  Texture trace;           ///< RG32UI: trace steps, brick that was hit and its level
   Texture shadow;          ///< RGBA8: visible shares of the first lights
   Texture shadowHalf;      ///< RGBA8: the same of every second pixel of every second row
   Texture shadowReads;     ///< R32UI: distances read for it; written in frames that count
@@ -29,6 +29,7 @@ struct FrameTargets {
   Texture picture;         ///< RGBA8: after the tone curve
   Texture boxOverdraw;     ///< R16F
   Framebuffer gbuffer;     ///< depth and the six layers, in the order of the fragment outputs
+  Framebuffer surface; ///< of it what textures decide: normal, albedo, material, emission
   Framebuffer overdraw;
 
   /// Makes the textures of occlusion that is traced at every scale-th pixel along both axes; 0: frees them.

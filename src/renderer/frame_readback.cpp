@@ -21,7 +21,8 @@ float rayParameterOfDepth(const View& view, const PrimaryRay& ray, float depth) 
 
 } // namespace
 
-FrameLayers readFrameLayers(const FrameTargets& targets, const View& view, std::uint32_t shadowedLights) {
+FrameLayers readFrameLayers(const FrameTargets& targets, const View& view, std::uint32_t shadowedLights,
+                            const std::vector<std::int32_t>& nodeOfInstance) {
   const std::size_t width = targets.size.x, height = targets.size.y;
   const std::vector<float> color = targets.color.readFloats(), normals = targets.normalWorldOct.readFloats(),
                            depth = targets.depth.readFloats();
@@ -58,7 +59,8 @@ FrameLayers readFrameLayers(const FrameTargets& targets, const View& view, std::
       layers.normalSurface[p] = directionFromOctahedral({normals[4 * source + 2], normals[4 * source + 3]});
       layers.albedo[p] =
           linearFromSrgb(glm::vec3(albedo[4 * source], albedo[4 * source + 1], albedo[4 * source + 2]) / 255.0f);
-      layers.id[p] = static_cast<std::int32_t>(ids[source] >> 2);
+      const std::uint32_t number = ids[source] >> 2;
+      layers.id[p] = kind == shared::KIND_SDF ? nodeOfInstance[number] : static_cast<std::int32_t>(number);
       layers.kind[p] = kind == shared::KIND_MESH ? SurfaceKind::Mesh : SurfaceKind::Sdf;
       layers.steps[p] = static_cast<float>(trace[2 * source]);
       for (std::size_t light = 0; light < shadowedLights; ++light)

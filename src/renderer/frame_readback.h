@@ -13,7 +13,9 @@ namespace brickfield {
 /// Waits for the GPU. Depth becomes metres along the pixel's ray.
 ///
 /// shadowedLights  whose layers are made
-FrameLayers readFrameLayers(const FrameTargets& targets, const View& view, std::uint32_t shadowedLights);
+/// nodeOfInstance  of the SDF objects that the frame drew
+FrameLayers readFrameLayers(const FrameTargets& targets, const View& view, std::uint32_t shadowedLights,
+                            const std::vector<std::int32_t>& nodeOfInstance);
 
 /// Of each pixel, rows from the top.
 std::vector<std::uint32_t> readFrameShadowReads(const FrameTargets& targets);

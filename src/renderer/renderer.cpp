@@ -16,6 +16,7 @@
 #include "passes/geometry/mesh_pass.h"
 #include "passes/geometry/sdf_box_pass.h"
 #include "passes/geometry/sdf_cull_pass.h"
+#include "passes/geometry/triplanar_pass.h"
 #include "passes/light/environment_pass.h"
 #include "passes/light/field_occlusion_pass.h"
 #include "passes/light/field_shadow_pass.h"
@@ -66,6 +67,7 @@ void recordPass(RtsdfJumpFloodPass& pass, const FrameContext& frame) { pass.reco
 void recordPass(RtsdfRaysPass& pass, const FrameContext& frame) {
   pass.record(*frame.field->rtsdf, *frame.field->hierarchy, frame.worldTriangles->triangles());
 }
+void recordPass(TriplanarPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(FieldShadowPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(FieldOcclusionPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(OcclusionSpreadPass& pass, const FrameContext& frame) { pass.record(frame); }
@@ -99,7 +101,7 @@ constexpr bool isLate = requires(Pass pass, ShaderLibrary& shaders) {
 
 /// What decides which passes a frame has.
 struct FrameShape {
-  bool boxesFirst = false;
+  bool boxesFirst = false, hasTriplanar = false;
   bool hasExactField = false, hasRtsdfField = false, hasShadows = false, hasOcclusion = false;
   bool hasShadowMaps = false, hasShadowMoments = false, hasTaa = false;
   bool showsPicture = false, showsDebugView = false, showsFieldView = false, showsShadowMaps = false, showsTaa = false;
@@ -133,6 +135,7 @@ struct Renderer::Parts {
   LatePass<RtsdfVoxelizePass> rtsdfVoxelize;
   LatePass<RtsdfJumpFloodPass> rtsdfJumpFlood;
   LatePass<RtsdfRaysPass> rtsdfRays;
+  LatePass<TriplanarPass> triplanar;
   LatePass<FieldShadowPass> fieldShadow;
   LatePass<FieldOcclusionPass> fieldOcclusion;
   LatePass<OcclusionSpreadPass> occlusionSpread;
@@ -159,6 +162,7 @@ struct Renderer::Parts {
   std::unique_ptr<Temporal> temporal; ///< null: no temporal antialiasing
   View previousView;                  ///< of the last frame, where temporal has a history
   bool isFieldInFrame = false;
+  std::vector<std::int32_t> nodeOfInstance; ///< of the SDF objects of the last frame
   Pose pose;
   View view;
   bool isPosed = false, isLit = false;
@@ -266,6 +270,7 @@ void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
     take(&Parts::depthCopy); // ends the rays of SDF objects behind meshes
     take(&Parts::sdfBox);
   }
+  if (shape.hasTriplanar) take(&Parts::triplanar); // the last word about surfaces
   if (shape.hasShadowMaps) take(&Parts::shadowMap);
   if (shape.hasShadowMoments) take(&Parts::shadowMoments);
   if (shape.hasShadowMaps) take(&Parts::mapShadow);
@@ -294,6 +299,7 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
   const bool readsField = shown && shown->readsField, readsMaps = shown && shown->readsShadowMaps;
   const bool readsTemporal = shown && shown->readsTemporal;
   const FrameShape shape{settings.drawOrder == DrawOrder::BoxesFirstAllReversed,
+                         !scene->triplanarMaterials().empty(),
                          context.field && context.field->exact,
                          context.field && context.field->rtsdf,
                          context.shadows && context.shadows->method == ShadowMethod::Field,
@@ -396,6 +402,8 @@ void Renderer::render(const View& view) {
   const OcclusionSettings& occlusion = parts.settings.occlusion;
   parts.targets->fitOcclusion(occlusion.form == OcclusionForm::Off ? 0 : occlusion.scale);
   parts.view = view;
+  parts.nodeOfInstance.clear();
+  for (const shared::SdfInstance& row : parts.scene->sdfInstances()) parts.nodeOfInstance.push_back(row.ids.x);
   parts.prepareTemporal();
   parts.isFieldInFrame = parts.readsField();
   const FieldFrame* field = parts.isFieldInFrame ? &parts.prepareField() : nullptr;
@@ -486,7 +494,7 @@ FieldPicture Renderer::fieldPicture() const {
 
 std::vector<std::string> framePassNames() {
   std::vector<std::string> names;
-  Renderer::Parts::listPasses({false, true, true, true, true, true, true, true, true, true, true, true, true},
+  Renderer::Parts::listPasses({false, true, true, true, true, true, true, true, true, true, true, true, true, true},
                               [&]<typename Pass>(Pass Renderer::Parts::*) { names.push_back(Pass::declare().name); });
   return names;
 }
@@ -496,7 +504,8 @@ FrameLayers Renderer::readLayers() const {
   const bool isShadowed = parts_->settings.shadows.method != ShadowMethod::None;
   const std::uint32_t lights = isShadowed ? parts_->scene->lightCount() : 0;
   return readFrameLayers(*parts_->targets, parts_->view,
-                         std::min(lights, static_cast<std::uint32_t>(shared::MOST_SHADOWED_LIGHTS)));
+                         std::min(lights, static_cast<std::uint32_t>(shared::MOST_SHADOWED_LIGHTS)),
+                         parts_->nodeOfInstance);
 }
 
 std::vector<std::uint32_t> Renderer::readShadowReads() const {

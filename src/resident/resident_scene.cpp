@@ -77,9 +77,11 @@ std::optional<shared::SdfInstance> sdfInstanceOf(const PosedInstance& instance, 
 } // namespace
 
 ResidentScene::ResidentScene(const Scene& scene, const SceneFields& fields)
-    : meshes_(scene), materials_(scene), fieldOfNode_(fields.fieldOfNode), lightFieldOfNode_(fields.lightFieldOfNode) {
+    : meshes_(scene), materials_(scene), fieldOfNode_(fields.fieldOfNode), lightFieldOfNode_(fields.lightFieldOfNode),
+      triplanarOfNode_(fields.triplanarOfNode) {
   fieldOfNode_.resize(scene.nodes.size(), -1);
   lightFieldOfNode_.resize(scene.nodes.size(), -1);
+  triplanarOfNode_.resize(scene.nodes.size(), 0.0f);
   atlas_.reserve(fields.fields);
   for (const BrickField& field : fields.fields) fieldIds_.push_back(atlas_.add(field));
 }
@@ -155,10 +157,23 @@ void ResidentScene::finishDraws(std::vector<PendingDraw>& pending) {
   glVertexArrayBindingDivisor(array.id(), kDrawBinding, 1);
 }
 
+shared::SdfLook ResidentScene::lookOf(const Scene& scene, const PosedInstance& instance, const ResidentField& field) {
+  shared::SdfLook look{};
+  look.objectFromGrid = glm::vec4(field.originObject, field.voxelSizeObject);
+  const std::vector<Primitive>& primitives = scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives;
+  const int material = primitives.empty() ? -1 : primitives.front().material;
+  look.texturing.x = triplanarOfNode_[static_cast<std::size_t>(instance.node)];
+  look.texturing.y = static_cast<float>(MaterialTable::rowOf(material));
+  if (look.texturing.x > 0 && std::ranges::find(triplanarMaterials_, material) == triplanarMaterials_.end())
+    triplanarMaterials_.push_back(material);
+  return look;
+}
+
 void ResidentScene::uploadInstances(std::size_t nodes) {
   std::vector<shared::SdfInstance> rows = sdfRows_;
   rows.insert(rows.end(), lightRows_.begin(), lightRows_.end());
   renew(sdfInstances_, "sdf_instances", rows);
+  renew(sdfLooks_, "sdf_looks", lookRows_);
   constexpr std::uint32_t kMostRows = 255, kCountShift = 24; // as in shaders/lib/near_bricks.glsl
   std::vector<std::uint32_t> rowsOfNode(std::max(nodes, std::size_t{1}), shared::NO_BRICKS);
   for (std::size_t row = 0; row < rows.size(); ++row) { // a node's instances follow each other
@@ -175,6 +190,8 @@ void ResidentScene::setPose(const Scene& scene, const Pose& pose) {
   deformJobs_.clear();
   sdfRows_.clear();
   lightRows_.clear();
+  lookRows_.clear();
+  triplanarMaterials_.clear();
   sdfPlaces_.clear();
   joints_.clear();
   weights_.clear();
@@ -186,11 +203,14 @@ void ResidentScene::setPose(const Scene& scene, const Pose& pose) {
     const int field = fieldOfNode_[node], bricks = field >= 0 ? field : lightFieldOfNode_[node];
     if (field < 0) addMeshDraws(pose, i, pending);
     if (bricks < 0) continue;
-    const std::optional<shared::SdfInstance> row = sdfInstanceOf(
-        instance, atlas_.field(fieldIds_[static_cast<std::size_t>(bricks)]), isDoubleSidedNode(scene, instance.mesh));
+    const ResidentField& resident = atlas_.field(fieldIds_[static_cast<std::size_t>(bricks)]);
+    const std::optional<shared::SdfInstance> row =
+        sdfInstanceOf(instance, resident, isDoubleSidedNode(scene, instance.mesh));
     if (!row) continue;
     (field >= 0 ? sdfRows_ : lightRows_).push_back(*row);
-    if (field >= 0) sdfPlaces_.push_back(i);
+    if (field < 0) continue;
+    sdfPlaces_.push_back(i);
+    lookRows_.push_back(lookOf(scene, instance, resident));
   }
   finishDraws(pending);
   uploadInstances(scene.nodes.size());
@@ -238,7 +258,7 @@ void ResidentScene::bindDeform() const {
 std::size_t ResidentScene::tableBytes() const {
   std::size_t sum = 0;
   for (const Buffer* table :
-       {&meshDraws_, &drawIndices_, &sdfInstances_, &nodeRows_, &lights_, &jointMatrices_, &morphWeights_})
+       {&meshDraws_, &drawIndices_, &sdfInstances_, &sdfLooks_, &nodeRows_, &lights_, &jointMatrices_, &morphWeights_})
     sum += table->bytes();
   return sum;
 }

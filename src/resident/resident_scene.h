@@ -18,6 +18,9 @@ struct SceneFields {
   std::vector<BrickField> fields;
   std::vector<int> fieldOfNode;
   std::vector<int> lightFieldOfNode{}; ///< of meshes: bricks that shadows alone read; empty: none has any
+  /// Of nodes whose fields have no attributes: metres of object space that the textures of their mesh's first material
+  /// span, projected along the three axes; 0, or nothing at all: white and rough.
+  std::vector<float> triplanarOfNode{};
 };
 
 /// Consecutive draws of one primitive with one state.
@@ -68,10 +71,13 @@ public:
   const std::vector<MeshPlace>& meshPlaces() const { return meshPlaces_; }
   /// Numbers in Pose::instances, in the order of sdfInstances().
   const std::vector<std::uint32_t>& sdfPlaces() const { return sdfPlaces_; }
+  /// Materials that SDF objects take their textures from, each once.
+  const std::vector<int>& triplanarMaterials() const { return triplanarMaterials_; }
   const Buffer& drawIndices() const { return drawIndices_; }
 
   void bindMeshDraws() const { meshDraws_.bindStorage(shared::kMeshDrawBinding); }
   void bindSdfInstances() const { sdfInstances_.bindStorage(shared::kSdfInstanceBinding); }
+  void bindSdfLooks() const { sdfLooks_.bindStorage(shared::kSdfLookBinding); }
   /// Of each node, which rows of the instances are its own; behind the SDF objects' follow those of bricks for light.
   void bindNodeRows() const { nodeRows_.bindStorage(shared::kNodeRowBinding); }
   void bindLights() const { lights_.bindStorage(shared::kLightBinding); }
@@ -83,6 +89,7 @@ private:
   struct PendingDraw;
   void addMeshDraws(const Pose& pose, std::uint32_t number, std::vector<PendingDraw>& pending);
   std::uint32_t addDeformJob(const PosedInstance& instance, const PooledPrimitive& primitive, DeformJob job);
+  shared::SdfLook lookOf(const Scene& scene, const PosedInstance& instance, const ResidentField& field);
   void uploadInstances(std::size_t nodes);
   void finishDraws(std::vector<PendingDraw>& pending);
 
@@ -91,16 +98,19 @@ private:
   BrickAtlas atlas_;
   std::vector<BrickAtlas::FieldId> fieldIds_;
   std::vector<int> fieldOfNode_, lightFieldOfNode_;
+  std::vector<float> triplanarOfNode_;
 
   std::vector<MeshBatch> batches_;
   std::vector<DeformJob> deformJobs_;
   std::vector<shared::SdfInstance> sdfRows_, lightRows_;
+  std::vector<shared::SdfLook> lookRows_;
+  std::vector<int> triplanarMaterials_;
   std::vector<MeshPlace> meshPlaces_;
   std::vector<std::uint32_t> sdfPlaces_;
   std::vector<glm::mat4> joints_;
   std::vector<float> weights_;
   std::uint32_t deformedVertices_ = 0;
-  Buffer meshDraws_, drawIndices_, sdfInstances_, nodeRows_, lights_, jointMatrices_, morphWeights_;
+  Buffer meshDraws_, drawIndices_, sdfInstances_, sdfLooks_, nodeRows_, lights_, jointMatrices_, morphWeights_;
   std::uint32_t sdfInstanceCount_ = 0, meshDrawCount_ = 0, lightCount_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // {"sdf": bool, "resolution": 8..1024, "bits": 8|16, "sign": ..., "thickness": > 0, "opacity": 0..1,
-//  "absorption": [r, g, b] >= 0}, all optional.
+//  "absorption": [r, g, b] >= 0, "triplanar": > 0}, all optional.
 #include "scene/gltf_extras.h"
 
 #include <array>
@@ -30,13 +30,15 @@ public:
       else if (key == "sign")
         settings.sign = sign(value);
       else if (key == "thickness")
-        settings.thickness = thickness(value);
+        settings.thickness = length(key, value);
       else if (key == "opacity")
         settings.opacity = number(key, value, 0.0, 1.0);
       else if (key == "absorption")
         settings.absorption = absorption(value);
+      else if (key == "triplanar")
+        settings.triplanar = length(key, value);
       else
-        refuse(key, "is not known; there are sdf, resolution, bits, sign, thickness, opacity, absorption");
+        refuse(key, "is not known; there are sdf, resolution, bits, sign, thickness, opacity, absorption, triplanar");
     }
     return settings;
   }
@@ -85,9 +87,9 @@ private:
     refuse("sign", fmt::format("is {}, none of auto, winding, parity, pseudonormal, two-sided", value.dump()));
   }
 
-  float thickness(const json& value) const {
-    const float metres = number("thickness", value, 0.0, static_cast<double>(kLargest));
-    if (!(metres > 0.0f)) refuse("thickness", "is not above 0");
+  float length(const std::string& key, const json& value) const {
+    const float metres = number(key, value, 0.0, static_cast<double>(kLargest));
+    if (!(metres > 0.0f)) refuse(key, "is not above 0");
     return metres;
   }
 

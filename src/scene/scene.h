@@ -105,6 +105,7 @@ struct SdfSettings {
   std::optional<float> thickness;      ///< metres of object space, two-sided only
   std::optional<float> opacity;        ///< 0 to 1
   std::optional<glm::vec3> absorption; ///< per metre, each >= 0
+  std::optional<float> triplanar;      ///< metres of object space that its textures span, projected along its axes
 };
 
 struct Node {

@@ -11,6 +11,7 @@ PassDeclaration DebugViewPass::declare() {
           {{Resource::FrameParams, Access::Uniform},
            {Resource::Depth, Access::Sampled},
            {Resource::GBuffer, Access::Sampled},
+           {Resource::SdfScene, Access::StorageRead},
            {Resource::BoxOverdraw, Access::Sampled},
            {Resource::Shadow, Access::Sampled},
            {Resource::ShadowReads, Access::Sampled}},
@@ -24,6 +25,7 @@ void DebugViewPass::record(const FrameContext& context) {
   context.targets.shadow.bind(shared::kShadowUnit);
   context.targets.shadowReads.bind(shared::kShadowReadsUnit);
   if (context.targets.occlusion) context.targets.occlusion.bind(shared::kOcclusionUnit);
+  context.scene.bindSdfInstances();
   context.targets.picture.bindImage(0, 0, GL_WRITE_ONLY);
   program_->dispatchOver({context.targets.picture.width(), context.targets.picture.height(), 1});
 }

@@ -34,6 +34,7 @@ const std::vector<ProgramSource>& programs() {
            {{"COUNTERS_ON", "1"}, {"MOTION_ON", "1"}}),
       draw("sdf_box", "passes/sdf_box.vert.glsl", "passes/sdf_box.frag.glsl", {}),
       draw("sdf_box_counting", "passes/sdf_box.vert.glsl", "passes/sdf_box.frag.glsl", {{"COUNTERS_ON", "1"}}),
+      draw("triplanar", "passes/triplanar.vert.glsl", "passes/triplanar.frag.glsl", {}),
       draw("shadow_map", "passes/shadow_map.vert.glsl", "passes/shadow_map.frag.glsl", {}),
       draw("shadow_map_masked", "passes/shadow_map.vert.glsl", "passes/shadow_map.frag.glsl", {{"ALPHA_MASK", "1"}}),
       draw("shadow_map_box", "passes/sdf_box.vert.glsl", "passes/sdf_box.frag.glsl", {{"DEPTH_ONLY", "1"}}),

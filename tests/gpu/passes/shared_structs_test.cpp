@@ -86,6 +86,8 @@ TEST_F(SharedStructs, RowsOfSdfObjects) {
              {ARRAY(SdfInstance, gridFromWorld), ARRAY(SdfInstance, worldFromGrid), MEMBER(SdfInstance, boxMin),
               MEMBER(SdfInstance, boxMax), MEMBER(SdfInstance, ids)});
   expectRows("SdfMotion", "sdf_params.h", sizeof(shared::SdfMotion), {ARRAY(SdfMotion, previousWorldFromGrid)});
+  expectRows("SdfLook", "sdf_params.h", sizeof(shared::SdfLook),
+             {MEMBER(SdfLook, objectFromGrid), MEMBER(SdfLook, texturing)});
   expectRows("SdfLevel", "sdf_params.h", sizeof(shared::SdfLevel),
              {MEMBER(SdfLevel, cells), MEMBER(SdfLevel, scale), MEMBER(SdfLevel, attributes)});
   expectRows("BoxCommand", "sdf_params.h", sizeof(shared::BoxCommand),

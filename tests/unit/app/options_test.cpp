@@ -65,6 +65,18 @@ TEST(SdfNodes, GivenResolutionWinsOverExtrasAndDefault) {
   EXPECT_EQ(given[2]->resolution, 32);
 }
 
+TEST(SdfNodes, TexturesThatAreProjectedTakeThePlaceOfAttributes) {
+  Scene scene = dragonScene();
+  scene.nodes[1].sdf.triplanar = 0.5f;
+  SdfRequest request{{"Dragon*"}, {}};
+  EXPECT_FALSE(sdfNodes(scene, request, 0)[1]->attributes);
+  EXPECT_TRUE(sdfNodes(scene, request, 0)[2]->attributes);
+  EXPECT_THAT(triplanarNodes(scene, request), ElementsAre(0, 0.5f, 0, 0));
+  request.triplanarMetres = 2.0f;
+  EXPECT_FALSE(sdfNodes(scene, request, 0)[2]->attributes);
+  EXPECT_THAT(triplanarNodes(scene, request), ElementsAre(2, 2, 2, 2));
+}
+
 TEST(SdfNodes, PatternWithoutMatchNamesFlagPatternAndNodes) {
   const std::string message = refusalOf([] { sdfNodes(dragonScene(), {{"Dragon*", "Cat*"}, {}}, 0); });
   EXPECT_THAT(message, AllOf(HasSubstr("--sdf"), HasSubstr("Cat*"), HasSubstr("Dragon Head"), HasSubstr("Floor")));
@@ -116,6 +128,8 @@ TEST(SharedOptions, FillTheirRequests) {
                                "Walk",
                                "--resolution",
                                "99",
+                               "--triplanar",
+                               "0.25",
                                "--cache",
                                "bricks",
                                "--threads",
@@ -135,6 +149,7 @@ TEST(SharedOptions, FillTheirRequests) {
   EXPECT_EQ(parsed.scene.path, "scene.glb");
   EXPECT_THAT(parsed.scene.sdf.patterns, ElementsAre("A*", "B", "C[ab]"));
   EXPECT_EQ(parsed.scene.sdf.resolution, 99);
+  EXPECT_EQ(parsed.scene.sdf.triplanarMetres, 0.25f);
   EXPECT_EQ(parsed.scene.pose.seconds, -0.5);
   EXPECT_EQ(parsed.scene.pose.animation, "Walk");
   EXPECT_EQ(parsed.scene.cacheFolder, "bricks");
@@ -156,6 +171,11 @@ TEST(SharedOptions, AreOptional) {
   EXPECT_FALSE(parsed.scene.pose.seconds);
   EXPECT_TRUE(parsed.scene.sdf.patterns.empty());
   EXPECT_FALSE(parsed.scene.cacheFolder);
+  EXPECT_FALSE(parsed.scene.sdf.triplanarMetres);
+  EXPECT_THAT(refusalOf([] {
+                parse({"scene.glb", "--triplanar", "0"});
+              }),
+              HasSubstr("--triplanar: 0: is not above 0"));
   EXPECT_EQ(parsed.camera.sizePixels, glm::uvec2(1280, 720));
   EXPECT_TRUE(parsed.light.texts.empty());
   EXPECT_EQ(parsed.brdf, BrdfModel::CookTorrance);

@@ -227,7 +227,8 @@ GltfBuilder withExtras(const char* brickfield) {
 
 TEST(GltfExtras, EverySettingArrives) {
   const SdfSettings all = withExtras(R"({"sdf":true,"resolution":128,"bits":16,"sign":"two-sided","thickness":0.5,
-                                         "opacity":0.4,"absorption":[0.2,0.9,0]})")
+                                         "opacity":0.4,"absorption":[0.2,0.9,0],
+                                         "triplanar":0.25})")
                               .import()
                               .nodes[0]
                               .sdf;
@@ -238,9 +239,11 @@ TEST(GltfExtras, EverySettingArrives) {
   EXPECT_EQ(all.thickness, 0.5f);
   EXPECT_EQ(all.opacity, 0.4f);
   EXPECT_EQ(all.absorption, glm::vec3(0.2f, 0.9f, 0));
+  EXPECT_EQ(all.triplanar, 0.25f);
   const SdfSettings none = withExtras("{}").import().nodes[0].sdf;
   EXPECT_FALSE(none.sdf);
-  EXPECT_FALSE(none.resolution || none.bits || none.sign || none.thickness || none.opacity || none.absorption);
+  EXPECT_FALSE(none.resolution || none.bits || none.sign || none.thickness || none.opacity || none.absorption ||
+               none.triplanar);
   const std::array<std::pair<const char*, SignMethod>, 5> signs = {{{"auto", SignMethod::Auto},
                                                                     {"winding", SignMethod::Winding},
                                                                     {"parity", SignMethod::Parity},
@@ -268,6 +271,8 @@ TEST(GltfExtras, AnythingElseNamesFileNodeAndMember) {
                           R"({"thickness":1e300})",
                           R"({"opacity":1.5})",
                           R"({"opacity":-0.1})",
+                          R"({"triplanar":0})",
+                          R"({"triplanar":-1})",
                           R"({"absorption":1})",
                           R"({"absorption":[1,2]})",
                           R"({"absorption":[1,2,-3]})",
