@@ -370,8 +370,7 @@ std::optional<SurfaceHit> ReferenceGeometry::trace(const RayBundle& rays) const 
 
   const Placement& placement = device_->placements[query.hit.instID[0]];
   if (placement.shape->field) {
-    SurfaceHit hit =
-        fieldHit(*placement.shape->field, placement.node, placement.worldFromObject, ray, query.ray.tfar);
+    SurfaceHit hit = fieldHit(*placement.shape->field, placement.node, placement.worldFromObject, ray, query.ray.tfar);
     if (placement.texturing.metres > 0) textureField(placement.texturing, placement.worldFromObject, rays, hit);
     return hit;
   }

@@ -26,7 +26,11 @@ struct Surface {
   vec3 baseColor;
   float metallic;
   float roughness;
+  float transmitted; // of the diffuse light, to the other side
 };
+
+// Of the diffuse light that is sent back.
+vec3 diffuseColor(Surface surface) { return surface.baseColor * ((1.0 - surface.metallic) * (1.0 - surface.transmitted)); }
 
 // Below this a highlight is narrower than a pixel and its peak leaves half floats: 0.045² as alpha, Filament's choice.
 const float kLeastRoughness = 0.045;
@@ -46,7 +50,7 @@ vec3 reflectedShare(Surface surface, vec3 normal, vec3 toViewer, vec3 toLight) {
   float vDotH = clamp(dot(toViewer, halfway), 0.0, 1.0);
   vec3 f0 = mix(vec3(0.04), surface.baseColor, surface.metallic);
   vec3 fresnel = fresnelSchlick(f0, vDotH);
-  vec3 diffuse = (1.0 - fresnel) * mix(surface.baseColor, vec3(0.0), surface.metallic) / kPi;
+  vec3 diffuse = (1.0 - fresnel) * diffuseColor(surface) / kPi;
   vec3 specular = fresnel * distributionGgx(min(dot(normal, halfway), 1.0), alpha) * visibilitySmith(nDotL, nDotV, alpha);
   return (diffuse + specular) * nDotL;
 }
@@ -60,5 +64,5 @@ vec3 blinnPhongShare(Surface surface, vec3 normal, vec3 toViewer, vec3 toLight) 
   float scale = (exponent + 2.0) * (exponent + 4.0) / (8.0 * kPi * (exp2(-0.5 * exponent) + exponent));
   float lobe = nDotH > 0.0 ? scale * pow(nDotH, exponent) : exponent > 0.0 ? 0.0 : scale;
   vec3 f0 = mix(vec3(0.04), surface.baseColor, surface.metallic);
-  return ((1.0 - f0) * mix(surface.baseColor, vec3(0.0), surface.metallic) / kPi + f0 * lobe) * nDotL;
+  return ((1.0 - f0) * diffuseColor(surface) / kPi + f0 * lobe) * nDotL;
 }

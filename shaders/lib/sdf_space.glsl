@@ -19,3 +19,11 @@ vec3 gridFromEye(SdfInstance instance, vec3 pointEye) {
 vec3 eyeFromGrid(SdfInstance instance, vec3 pointGrid) {
   return rowsTimesDirection(instance.worldFromGrid, pointGrid) + gridOriginEye(instance);
 }
+
+// Ray parameters inside the box, from the near plane on.
+vec2 boxRange(SdfInstance instance, vec3 originGrid, vec3 directionGrid, float tNear) {
+  vec3 safe = mix(directionGrid, vec3(1e-20), equal(directionGrid, vec3(0.0)));
+  vec3 a = (instance.boxMin.xyz - originGrid) / safe, b = (instance.boxMax.xyz - originGrid) / safe;
+  vec3 lower = min(a, b), upper = max(a, b);
+  return vec2(max(max(lower.x, lower.y), max(lower.z, tNear)), min(upper.x, min(upper.y, upper.z)));
+}

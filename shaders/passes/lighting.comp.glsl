@@ -2,6 +2,7 @@
 #include "lib/brdf.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/light_arrival.glsl"
 #include "lib/spherical_harmonics.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -11,39 +12,15 @@ layout(binding = kEnvironmentUnit) uniform sampler2D environment_prefiltered;
 layout(binding = kEnvironmentBrdfUnit) uniform sampler2D environment_brdf;
 layout(binding = kShadowUnit) uniform sampler2D shadow;
 layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
+layout(binding = kTranslucentUnit) uniform sampler2D translucent;
 layout(binding = 0, rgba16f) writeonly uniform image2D color;
 
 uniform int shadowedLights; // the first ones
-uniform bool isOccluded;
+uniform bool isOccluded, isTranslucent;
 uniform bool isBlinnPhong; // of direct light; the surroundings are always those of Cook-Torrance
 
 vec3 directShare(Surface surface, vec3 normal, vec3 toViewer, vec3 toLight) {
   return isBlinnPhong ? blinnPhongShare(surface, normal, toViewer, toLight) : reflectedShare(surface, normal, toViewer, toLight);
-}
-
-// Irradiance that reaches a point facing the light, and the direction to it.
-vec3 lightAt(LightRow light, vec3 pointWorld, out vec3 toLight) {
-  uint kind = uint(light.position.w);
-  if (kind == LIGHT_SUN) {
-    toLight = -light.direction.xyz;
-    return light.intensity.rgb;
-  }
-  vec3 offset = light.position.xyz - pointWorld;
-  float distance2 = max(dot(offset, offset), 1e-8);
-  toLight = offset * inversesqrt(distance2);
-  // A sphere light's candela hold for its far field; nearer than its surface nothing is defined.
-  distance2 = max(distance2, light.intensity.w * light.intensity.w);
-  float falloff = 1.0 / distance2;
-  if (light.direction.w > 0.0) {
-    // KHR_lights_punctual's window.
-    float ratio2 = distance2 / (light.direction.w * light.direction.w);
-    falloff *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
-  }
-  if (kind == LIGHT_SPOT) {
-    float angular = clamp(dot(light.direction.xyz, -toLight) * light.cone.x + light.cone.y, 0.0, 1.0);
-    falloff *= angular * angular;
-  }
-  return light.intensity.rgb * falloff;
 }
 
 // From a panel of one radiance on its front: as from 16 points of it.
@@ -68,7 +45,7 @@ vec3 environmentLight(Surface surface, vec3 normal, vec3 toViewer, float occlusi
   vec3 specularShare = f0 * scaleBias.x + scaleBias.y;
   float mip = surface.roughness * float(frame.counts.w - 1u);
   vec3 specular = textureLod(environment_prefiltered, equirectFromDirection(reflect(-toViewer, normal)), mip).rgb;
-  vec3 diffuse = evaluateHarmonics(frame.irradiance, normal) / kPi * surface.baseColor * (1.0 - surface.metallic);
+  vec3 diffuse = evaluateHarmonics(frame.irradiance, normal) / kPi * diffuseColor(surface);
   return occlusion * ((1.0 - specularShare) * diffuse + specularShare * specular);
 }
 
@@ -82,7 +59,8 @@ void main() {
     return;
   }
   vec4 properties = texelFetch(material, pixel, 0);
-  Surface surface = Surface(texelFetch(albedo, pixel, 0).rgb, properties.r, properties.g);
+  vec4 through = isTranslucent ? texelFetch(translucent, pixel, 0) : vec4(0.0);
+  Surface surface = Surface(texelFetch(albedo, pixel, 0).rgb, properties.r, properties.g, through.a);
   vec3 radiance;
   if (properties.a > 0.5) {
     radiance = surface.baseColor;
@@ -92,7 +70,7 @@ void main() {
     vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).xy);
     vec3 toViewer = -directionWorld;
     float open = properties.b * (isOccluded ? texelFetch(occlusion, pixel, 0).r : 1.0);
-    radiance = texelFetch(emission, pixel, 0).rgb + environmentLight(surface, normal, toViewer, open);
+    radiance = texelFetch(emission, pixel, 0).rgb + through.rgb + environmentLight(surface, normal, toViewer, open);
     vec4 visible = texelFetch(shadow, pixel, 0);
     for (int i = 0; i < int(frame.size.z); ++i) {
       float share = i < shadowedLights ? visible[i] : 1.0;

@@ -40,14 +40,6 @@ const int kMostCuts = 16;
 // Beyond the hit, far enough that its own rounding is not met again.
 const float kPastCutVoxels = 1e-2;
 
-// Ray parameters inside the box, from the near plane on.
-vec2 boxRange(SdfInstance instance, vec3 originGrid, vec3 directionGrid, float tNear) {
-  vec3 safe = mix(directionGrid, vec3(1e-20), equal(directionGrid, vec3(0.0)));
-  vec3 a = (instance.boxMin.xyz - originGrid) / safe, b = (instance.boxMax.xyz - originGrid) / safe;
-  vec3 lower = min(a, b), upper = max(a, b);
-  return vec2(max(max(lower.x, lower.y), max(lower.z, tNear)), min(upper.x, min(upper.y, upper.z)));
-}
-
 const vec4 kRoughDielectric = vec4(0.0, 1.0, 1.0, 0.0); // as material
 
 // Writes the attributes of the surface at a point, from the level's attribute bricks; without them white and rough.

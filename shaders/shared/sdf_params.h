@@ -24,8 +24,10 @@ SHARED_ASSERT_SIZE(SdfMotion, 48)
 struct SdfLook {
   vec4 objectFromGrid; // xyz: where sample 0 lies in object space; w: metres of object space a voxel
   vec4 texturing;      // x: metres of object space that triplanar textures span, 0: none; y: row of their material
+  vec4 transmission;   // rgb: colour of the diffuse light that passes; w: its share
+  vec4 absorption;     // rgb: per metre of world
 };
-SHARED_ASSERT_SIZE(SdfLook, 32)
+SHARED_ASSERT_SIZE(SdfLook, 64)
 
 SHARED_CONST uint SDF_DOUBLE_SIDED = 1;
 
@@ -79,6 +81,7 @@ SHARED_CONST uint COUNTER_PROMISE_BROKEN = 4;
 SHARED_CONST uint COUNTER_OUT_OF_STEPS = 5;
 SHARED_CONST uint COUNTER_SHADOW_READS = 6;
 SHARED_CONST uint COUNTER_OCCLUSION_READS = 7;
+SHARED_CONST uint COUNTER_INSIDE_STEPS = 8;   // of rays within objects
 SHARED_CONST uint COUNTER_MAP_FRAGMENTS = 12; // boxes in shadow maps
 SHARED_CONST uint COUNTER_MAP_STEPS = 13;
 SHARED_CONST uint COUNTERS = 16;

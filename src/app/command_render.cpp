@@ -33,6 +33,7 @@ int render(RenderRequest& request) {
   checkFieldShadowChoice(request.fieldShadows, request.shadows == ShadowChoice::Field,
                          request.field.settings.method == FieldMethod::Exact);
   settleOcclusionChoice(request.occlusion, request.view, request.field.settings.method != FieldMethod::Off);
+  settleTranslucencyChoice(request.translucency, request.view);
   checkInputPath(request.scene.path, {".gltf", ".glb"});
   runRender(request);
   return 0;
@@ -67,6 +68,7 @@ void addOptions(CLI::App& command, RenderRequest& request) {
     request.taa.sharpness = static_cast<float>(parseNumber(flag, text, 0, 1));
   })->type_name("S");
   addOcclusionOptions(command, request.occlusion);
+  addTranslucencyOptions(command, request.translucency);
   addName(command, "--view", "A debug view instead of the picture; see \"brickfield list views\"", request.view);
   addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", request.layers);
   addPath(command, "--stats", "Times, counts and memory as .json", request.stats);

@@ -61,9 +61,9 @@ struct LayerFormat {
 
 constexpr float kMostWholeFloat = 16777216.0f; // 2^24: beyond it floats skip whole numbers
 
-const std::array<LayerFormat, 9>& layerFormats() {
+const std::array<LayerFormat, 10>& layerFormats() {
   static const std::vector<std::string> rgb{"R", "G", "B"}, xyz{"X", "Y", "Z"};
-  static const std::array<LayerFormat, 9> formats{{
+  static const std::array<LayerFormat, 10> formats{{
       {"color", rgb, [](const FrameLayers& l) { return floatsOf(l.color); },
        [](FrameLayers& l, const Floats& f) { l.color = vectorsOf(f); }},
       {"depth",
@@ -88,6 +88,10 @@ const std::array<LayerFormat, 9>& layerFormats() {
        {"AO"},
        [](const FrameLayers& l) { return l.ambientOcclusion; },
        [](FrameLayers& l, const Floats& f) { l.ambientOcclusion = f; }},
+      {"thickness",
+       {"METRES"},
+       [](const FrameLayers& l) { return l.thickness; },
+       [](FrameLayers& l, const Floats& f) { l.thickness = f; }},
       {"steps",
        {"STEPS"},
        [](const FrameLayers& l) { return l.steps; },

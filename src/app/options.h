@@ -33,9 +33,9 @@ CLI::Option* addName(CLI::App& command, const std::string& flag, const std::stri
 
 /// Which nodes become SDF objects, and how they are baked.
 struct SdfRequest {
-  std::vector<std::string> patterns; ///< "all", "none" or globs of node names; empty: what the scene's extras say
-  std::optional<int> resolution;     ///< of every SDF node; wins over its extras
-  std::optional<float> triplanarMetres{};     ///< of every SDF node; wins over its extras
+  std::vector<std::string> patterns;      ///< "all", "none" or globs of node names; empty: what the scene's extras say
+  std::optional<int> resolution;          ///< of every SDF node; wins over its extras
+  std::optional<float> triplanarMetres{}; ///< of every SDF node; wins over its extras
   std::optional<std::uint64_t> memoryBytes{}; ///< that a bake may take; nothing: most of the machine's
 };
 

@@ -106,6 +106,8 @@ Json settingsJson(const RenderRun& run) {
     json["shadow_maps"] = {{"filter", shadowFilterName(request.shadowMaps.filter)}, {"size", request.shadowMaps.size}};
   json["taa"] = {{"on", request.taa.on}, {"sharpness", request.taa.sharpness}};
   json["ao"] = occlusionSettingsJson(request.occlusion.settings);
+  json["translucency"] = {{"what", translucencyText(request.translucency.settings)},
+                          {"wrap", request.translucency.settings.wrap}};
   json["brdf"] = brdfModelName(request.brdf);
   json["light"] = request.light.texts.empty() ? Json("scene") : Json(request.light.texts);
   json["environment"] = request.light.environment.empty() ? "sky" : request.light.environment.string();
@@ -197,6 +199,7 @@ Json countsJson(const FrameStats& stats) {
           {"out_of_steps", stats.counters.outOfSteps},
           {"shadow_reads", stats.counters.shadowReads},
           {"ao_reads", stats.counters.occlusionReads},
+          {"inside_steps", stats.counters.insideSteps},
           {"shadow_map_layers", stats.shadowMapLayers},
           {"shadow_map_fragments", stats.counters.mapFragments},
           {"shadow_map_steps", stats.counters.mapSteps}};

@@ -37,6 +37,7 @@ RendererSettings settingsOf(const RenderRequest& request) {
   settings.shadowMaps = request.shadowMaps;
   settings.taa = request.taa;
   settings.occlusion = request.occlusion.settings;
+  settings.translucency = request.translucency.settings;
   settings.brdf = request.brdf;
   settings.fieldSlice = request.field.slice;
   return settings;

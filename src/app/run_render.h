@@ -10,6 +10,7 @@
 #include "app/occlusion_choice.h"
 #include "app/options.h"
 #include "app/shadow_choice.h"
+#include "app/translucency_choice.h"
 
 namespace brickfield {
 
@@ -28,8 +29,9 @@ struct RenderRequest {
   FieldShadowChoice fieldShadows; ///< checked
   ShadowMapSettings shadowMaps;
   TaaSettings taa;
-  OcclusionChoice occlusion; ///< settled
-  FieldChoice field;         ///< settled
+  OcclusionChoice occlusion;       ///< settled
+  TranslucencyChoice translucency; ///< settled
+  FieldChoice field;               ///< settled
   BrdfModel brdf = BrdfModel::CookTorrance;
   float exposureEv = 0;
   std::string view; ///< one of debugViews(); empty: the lit picture

@@ -6,6 +6,7 @@
 #include "passes/frame_targets.h"
 #include "passes/light/occlusion_settings.h"
 #include "passes/light/shadow_settings.h"
+#include "passes/light/translucency_settings.h"
 #include "passes/visible_boxes.h"
 #include "resident/resident_scene.h"
 #include "resident/world_triangles.h"
@@ -38,6 +39,7 @@ struct FrameContext {
   const Temporal* temporal = nullptr;             ///< null: no temporal antialiasing
   OcclusionSettings occlusion = {};
   BrdfModel brdf = BrdfModel::CookTorrance; ///< of direct light
+  TranslucencySettings translucency = {};
 };
 
 } // namespace brickfield

@@ -52,6 +52,13 @@ void FrameTargets::fitOcclusion(int scale) {
     occlusionTraced = layer("occlusion_traced", GL_RG32UI, traced);
 }
 
+void FrameTargets::fitTranslucency(bool isMade) {
+  if (!isMade) translucent = {}, thickness = {};
+  if (!isMade || thickness) return;
+  translucent = layer("translucent", GL_RGBA16F, size);
+  thickness = layer("thickness", GL_R32F, size);
+}
+
 void FrameTargets::bindGBuffer() const {
   depth.bind(shared::kDepthUnit);
   normalWorldOct.bind(shared::kNormalUnit);
@@ -66,7 +73,7 @@ std::size_t FrameTargets::bytes() const {
   std::size_t sum = 0;
   for (const Texture* texture :
        {&depth, &depthMesh, &normalWorldOct, &albedo, &material, &emission, &id, &trace, &shadow, &shadowHalf,
-        &shadowReads, &occlusion, &occlusionTraced, &color, &picture, &boxOverdraw})
+        &shadowReads, &occlusion, &occlusionTraced, &translucent, &thickness, &color, &picture, &boxOverdraw})
     if (*texture) sum += texture->bytes();
   return sum;
 }

@@ -37,6 +37,8 @@ const char* resourceName(Resource resource) {
     return "occlusion_traced";
   case Resource::Occlusion:
     return "occlusion";
+  case Resource::Translucency:
+    return "translucency";
   case Resource::Color:
     return "color";
   case Resource::History:

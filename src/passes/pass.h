@@ -26,6 +26,7 @@ enum class Resource : std::uint8_t {
   ShadowMoments,   ///< blurred, of the shadow maps
   OcclusionTraced, ///< open shares of the hemisphere at fewer pixels
   Occlusion,       ///< at all of them
+  Translucency,    ///< light through SDF objects, and their thickness
   Color,
   History, ///< pictures and depths averaged over frames
   Picture,

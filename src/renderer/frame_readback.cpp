@@ -46,11 +46,14 @@ FrameLayers readFrameLayers(const FrameTargets& targets, const View& view, std::
   layers.shadow.assign(shadowedLights, std::vector<float>(pixels, 1.0f));
   const std::vector<float> open = targets.occlusion ? targets.occlusion.readFloats() : std::vector<float>{};
   layers.ambientOcclusion.resize(open.size());
+  const std::vector<float> thickness = targets.thickness ? targets.thickness.readFloats() : std::vector<float>{};
+  layers.thickness.resize(thickness.size());
   for (std::size_t y = 0; y < height; ++y)
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t source = (height - 1 - y) * width + x, p = y * width + x;
       layers.color[p] = {color[4 * source], color[4 * source + 1], color[4 * source + 2]};
       if (!open.empty()) layers.ambientOcclusion[p] = open[source];
+      if (!thickness.empty()) layers.thickness[p] = thickness[source];
       const std::uint32_t kind = ids[source] & 3u;
       if (kind == shared::KIND_NONE) continue;
       const PrimaryRay ray = primaryRay(view, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});

@@ -25,6 +25,7 @@
 #include "passes/light/shadow_map_pass.h"
 #include "passes/light/shadow_maps.h"
 #include "passes/light/shadow_moments_pass.h"
+#include "passes/light/translucency_pass.h"
 #include "passes/post/taa_pass.h"
 #include "passes/post/taa_sharpen_pass.h"
 #include "passes/post/temporal.h"
@@ -68,6 +69,7 @@ void recordPass(RtsdfRaysPass& pass, const FrameContext& frame) {
   pass.record(*frame.field->rtsdf, *frame.field->hierarchy, frame.worldTriangles->triangles());
 }
 void recordPass(TriplanarPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(TranslucencyPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(FieldShadowPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(FieldOcclusionPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(OcclusionSpreadPass& pass, const FrameContext& frame) { pass.record(frame); }
@@ -103,7 +105,7 @@ constexpr bool isLate = requires(Pass pass, ShaderLibrary& shaders) {
 struct FrameShape {
   bool boxesFirst = false, hasTriplanar = false;
   bool hasExactField = false, hasRtsdfField = false, hasShadows = false, hasOcclusion = false;
-  bool hasShadowMaps = false, hasShadowMoments = false, hasTaa = false;
+  bool hasTranslucency = false, hasShadowMaps = false, hasShadowMoments = false, hasTaa = false;
   bool showsPicture = false, showsDebugView = false, showsFieldView = false, showsShadowMaps = false, showsTaa = false;
 };
 
@@ -139,6 +141,7 @@ struct Renderer::Parts {
   LatePass<FieldShadowPass> fieldShadow;
   LatePass<FieldOcclusionPass> fieldOcclusion;
   LatePass<OcclusionSpreadPass> occlusionSpread;
+  LatePass<TranslucencyPass> translucency;
   LatePass<FieldViewPass> fieldView;
   LatePass<ShadowMapPass> shadowMap;
   LatePass<ShadowMomentsPass> shadowMoments;
@@ -279,6 +282,7 @@ void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
     take(&Parts::fieldOcclusion);
     take(&Parts::occlusionSpread); // over all pixels
   }
+  if (shape.hasTranslucency) take(&Parts::translucency);
   take(&Parts::lighting); // also under a debug view: layers are whole whatever the picture shows
   if (shape.hasTaa) {
     take(&Parts::taa);
@@ -304,6 +308,7 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
                          context.field && context.field->rtsdf,
                          context.shadows && context.shadows->method == ShadowMethod::Field,
                          context.occlusion.form != OcclusionForm::Off,
+                         context.translucency.source != TranslucencySource::Off,
                          context.shadowMaps != nullptr,
                          context.shadowMaps && settings.shadowMaps.filter == ShadowFilter::Evsm,
                          context.temporal != nullptr,
@@ -337,6 +342,8 @@ shared::FrameParams Renderer::Parts::fillParams() const {
     const float toCenter = glm::distance(view.eyeWorld, pose.boundsWorld.center());
     params.debugRange = {std::max(0.0f, toCenter - radius), toCenter + radius, 0, 0};
   }
+  if (shown && shown->number == shared::DEBUG_VIEW_THICKNESS && !pose.boundsWorld.isEmpty())
+    params.debugRange = {0, 0.1f * glm::length(pose.boundsWorld.extent()), 0, 0};
   if (temporal) {
     const View& before = temporal->hasHistory ? previousView : view;
     View still = before;
@@ -401,6 +408,7 @@ void Renderer::render(const View& view) {
   }
   const OcclusionSettings& occlusion = parts.settings.occlusion;
   parts.targets->fitOcclusion(occlusion.form == OcclusionForm::Off ? 0 : occlusion.scale);
+  parts.targets->fitTranslucency(parts.settings.translucency.source != TranslucencySource::Off);
   parts.view = view;
   parts.nodeOfInstance.clear();
   for (const shared::SdfInstance& row : parts.scene->sdfInstances()) parts.nodeOfInstance.push_back(row.ids.x);
@@ -429,7 +437,8 @@ void Renderer::render(const View& view) {
                              parts.settings.shadows.method == ShadowMethod::Maps ? parts.shadowMaps.get() : nullptr,
                              parts.temporal.get(),
                              parts.settings.occlusion,
-                             parts.settings.brdf};
+                             parts.settings.brdf,
+                             parts.settings.translucency};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDisable(GL_BLEND);
   glEnable(GL_FRAMEBUFFER_SRGB); // albedo is stored as sRGB; the other targets are linear and unaffected
@@ -455,7 +464,8 @@ FrameStats Renderer::stats() {
                     counts[shared::COUNTER_STEPS],          counts[shared::COUNTER_BRICK_READS],
                     counts[shared::COUNTER_PROMISE_BROKEN], counts[shared::COUNTER_OUT_OF_STEPS],
                     counts[shared::COUNTER_SHADOW_READS],   counts[shared::COUNTER_OCCLUSION_READS],
-                    counts[shared::COUNTER_MAP_FRAGMENTS],  counts[shared::COUNTER_MAP_STEPS]};
+                    counts[shared::COUNTER_MAP_FRAGMENTS],  counts[shared::COUNTER_MAP_STEPS],
+                    counts[shared::COUNTER_INSIDE_STEPS]};
   if (parts.settings.shadows.method == ShadowMethod::Maps && parts.shadowMaps)
     stats.shadowMapLayers = static_cast<std::uint32_t>(parts.shadowMaps->layerCount());
   stats.sdfInstances = parts.scene->sdfInstanceCount();
@@ -494,8 +504,9 @@ FieldPicture Renderer::fieldPicture() const {
 
 std::vector<std::string> framePassNames() {
   std::vector<std::string> names;
-  Renderer::Parts::listPasses({false, true, true, true, true, true, true, true, true, true, true, true, true, true},
-                              [&]<typename Pass>(Pass Renderer::Parts::*) { names.push_back(Pass::declare().name); });
+  Renderer::Parts::listPasses(
+      {false, true, true, true, true, true, true, true, true, true, true, true, true, true, true},
+      [&]<typename Pass>(Pass Renderer::Parts::*) { names.push_back(Pass::declare().name); });
   return names;
 }
 

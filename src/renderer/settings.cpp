@@ -87,6 +87,8 @@ const std::vector<DebugView>& debugViews() {
        shared::DEBUG_VIEW_MOTION, kMotionRange, false, false, false, false, false, true},
       {"taa-frames", fmt::format("frames in each pixel's average, blue 0 to red {}", kTaaRange),
        shared::DEBUG_VIEW_TAA_FRAMES, kTaaRange, false, false, false, false, false, true},
+      {"thickness", "metres of the SDF object that the view ray crosses, blue 0 to red a tenth of the scene's diagonal",
+       shared::DEBUG_VIEW_THICKNESS},
       {"ao", "ambient occlusion by --ao: white open, black hidden", shared::DEBUG_VIEW_AO},
   };
   return views;
@@ -134,6 +136,7 @@ void checkSettings(const RendererSettings& settings) {
   if (!(settings.taa.sharpness >= 0 && settings.taa.sharpness <= 1))
     throw BadInput("taa", fmt::format("sharpness {}", settings.taa.sharpness), "is not in [0, 1]");
   checkOcclusionSettings(settings.occlusion);
+  checkTranslucencySettings(settings.translucency);
   if (settings.occlusion.form != OcclusionForm::Off && settings.worldField.method == FieldMethod::Off)
     throw BadInput("ambient occlusion", occlusionFormName(settings.occlusion.form),
                    "needs a world field, which is off");
@@ -144,6 +147,8 @@ void checkSettings(const RendererSettings& settings) {
   if (view->readsField) checkFieldView(*view, settings);
   if (view->number == shared::DEBUG_VIEW_AO && settings.occlusion.form == OcclusionForm::Off)
     throw BadInput("view", view->name, "shows ambient occlusion, which is off");
+  if (view->number == shared::DEBUG_VIEW_THICKNESS && settings.translucency.source == TranslucencySource::Off)
+    throw BadInput("view", view->name, "shows what translucency finds, which is off");
 }
 
 } // namespace brickfield

@@ -49,6 +49,7 @@ struct RendererSettings {
   ShadowMapSettings shadowMaps; ///< where the method is of maps
   TaaSettings taa;
   OcclusionSettings occlusion; ///< as the shadows: any form makes a world field in each frame
+  TranslucencySettings translucency;
   BrdfModel brdf = BrdfModel::CookTorrance; ///< that answers direct light
   FieldSettings worldField;
   FieldSlice fieldSlice;

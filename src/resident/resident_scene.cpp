@@ -77,7 +77,10 @@ std::optional<shared::SdfInstance> sdfInstanceOf(const PosedInstance& instance, 
 } // namespace
 
 ResidentScene::ResidentScene(const Scene& scene, const SceneFields& fields)
-    : meshes_(scene), materials_(scene), fieldOfNode_(fields.fieldOfNode), lightFieldOfNode_(fields.lightFieldOfNode),
+    : meshes_(scene),
+      materials_(scene),
+      fieldOfNode_(fields.fieldOfNode),
+      lightFieldOfNode_(fields.lightFieldOfNode),
       triplanarOfNode_(fields.triplanarOfNode) {
   fieldOfNode_.resize(scene.nodes.size(), -1);
   lightFieldOfNode_.resize(scene.nodes.size(), -1);
@@ -162,6 +165,10 @@ shared::SdfLook ResidentScene::lookOf(const Scene& scene, const PosedInstance& i
   look.objectFromGrid = glm::vec4(field.originObject, field.voxelSizeObject);
   const std::vector<Primitive>& primitives = scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives;
   const int material = primitives.empty() ? -1 : primitives.front().material;
+  static const Material kDefault;
+  const Material& first = material < 0 ? kDefault : scene.materials[static_cast<std::size_t>(material)];
+  look.transmission = glm::vec4(first.diffuseTransmissionColor, first.diffuseTransmission);
+  look.absorption = glm::vec4(first.absorption, 0);
   look.texturing.x = triplanarOfNode_[static_cast<std::size_t>(instance.node)];
   look.texturing.y = static_cast<float>(MaterialTable::rowOf(material));
   if (look.texturing.x > 0 && std::ranges::find(triplanarMaterials_, material) == triplanarMaterials_.end())

@@ -49,9 +49,7 @@ glm::vec3 evaluateBrdf(const SurfaceBrdf& brdf, glm::vec3 normal, glm::vec3 towa
   return (1.0f - fresnel) * brdf.diffuse / kPi + fresnel * lobe;
 }
 
-const char* brdfModelName(BrdfModel model) {
-  return model == BrdfModel::BlinnPhong ? "blinn-phong" : "cook-torrance";
-}
+const char* brdfModelName(BrdfModel model) { return model == BrdfModel::BlinnPhong ? "blinn-phong" : "cook-torrance"; }
 
 float blinnPhongExponent(float alpha) { return 2.0f / (alpha * alpha) - 2.0f; }
 

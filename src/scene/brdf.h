@@ -1,6 +1,6 @@
-// How surfaces answer light: the metallic-roughness BRDF of glTF 2.0, appendix B, and Blinn-Phong of the same materials,
-// to compare with what others publish. Twin of shaders/lib/brdf.glsl; the reference shades with it. Only formulas: no
-// scene, no textures. All vectors are unit and of one space.
+// How surfaces answer light: the metallic-roughness BRDF of glTF 2.0, appendix B, and Blinn-Phong of the same
+// materials, to compare with what others publish. Twin of shaders/lib/brdf.glsl; the reference shades with it. Only
+// formulas: no scene, no textures. All vectors are unit and of one space.
 #pragma once
 
 #include <cstdint>
@@ -51,8 +51,8 @@ const char* brdfModelName(BrdfModel model);
 float blinnPhongExponent(float alpha);
 
 /// Blinn 1977, without the cosine: (1 - f0) c_diff / pi + f0 N (N.H)^s, neither masked nor brighter aside. N makes it
-/// return f0, no more and no less, to a viewer who looks straight on: (s + 2) (s + 4) / (8 pi (2^(-s/2) + s)). Zero where
-/// the light is below the horizon.
+/// return f0, no more and no less, to a viewer who looks straight on: (s + 2) (s + 4) / (8 pi (2^(-s/2) + s)). Zero
+/// where the light is below the horizon.
 ///
 /// returns   per steradian; symmetric in two directions above the horizon
 /// proved by tests/unit/scene/brdf_test.cpp

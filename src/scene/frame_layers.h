@@ -23,6 +23,7 @@ struct FrameLayers {
   std::vector<SurfaceKind> kind;
   std::vector<std::vector<float>> shadow; ///< a light each: share of it that the surface sees; 1 for sky
   std::vector<float> ambientOcclusion;    ///< share of the hemisphere that is open, by the cosine; 1 for sky
+  std::vector<float> thickness;           ///< metres of the SDF object along the view ray; 0 for meshes and sky
   std::vector<float>
       steps; ///< trace steps of SDF objects; 0 elsewhere and in the reference, which steps through nothing
 };

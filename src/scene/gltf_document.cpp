@@ -23,6 +23,8 @@ namespace {
 
 using nlohmann::json;
 
+// Of KHR_materials_diffuse_transmission and _volume the factors are read, not the textures, and for SDF objects alone:
+// a file that cannot do without them is refused as before.
 constexpr std::array<std::string_view, 6> kSupportedExtensions = {
     "EXT_mesh_gpu_instancing", "KHR_lights_punctual",   "KHR_materials_emissive_strength",
     "KHR_materials_unlit",     "KHR_mesh_quantization", "KHR_texture_transform"};

@@ -69,6 +69,21 @@ glm::mat3 textureFromUv(const json& transform) {
                    glm::vec3(offset, 1.0f));
 }
 
+glm::vec3 colorOf(const json& extension, const char* name) {
+  glm::vec3 color(1.0f);
+  if (const auto it = extension.find(name); it != extension.end())
+    for (int i = 0; i < 3; ++i) color[i] = (*it)[static_cast<std::size_t>(i)].get<float>();
+  return color;
+}
+
+// The colour is what is left after the distance. Black would be infinitely dense; a millionth is as black.
+glm::vec3 absorptionOf(const json& volume) {
+  const float distance = volume.value("attenuationDistance", std::numeric_limits<float>::infinity());
+  const glm::vec3 left = glm::clamp(colorOf(volume, "attenuationColor"), 1e-6f, 1.0f);
+  const glm::vec3 perMetre = -glm::log(left) / distance;
+  return glm::min(perMetre, glm::vec3(std::numeric_limits<float>::max()));
+}
+
 class MaterialReader {
 public:
   MaterialReader(GltfDocument& document, const Scene& scene, std::size_t index)
@@ -97,6 +112,12 @@ public:
     material.alphaCutoff = static_cast<float>(source_.alphaCutoff);
     material.doubleSided = source_.doubleSided;
     material.unlit = extensionOf(json_, "KHR_materials_unlit") != nullptr;
+    if (const json* transmission = extensionOf(json_, "KHR_materials_diffuse_transmission")) {
+      material.diffuseTransmission = unit(transmission->value("diffuseTransmissionFactor", 0.0));
+      material.diffuseTransmissionColor = colorOf(*transmission, "diffuseTransmissionColorFactor");
+      if (!isFinite(material.diffuseTransmissionColor)) document_.refuse(element_, "its transmission is out of range");
+    }
+    if (const json* volume = extensionOf(json_, "KHR_materials_volume")) material.absorption = absorptionOf(*volume);
     const json& pbrJson = json_.contains("pbrMetallicRoughness") ? json_["pbrMetallicRoughness"] : kNothing;
     material.baseColorTexture = slot(pbrJson, "baseColorTexture");
     material.metallicRoughnessTexture = slot(pbrJson, "metallicRoughnessTexture");

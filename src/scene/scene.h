@@ -57,11 +57,14 @@ struct Material {
   float alphaCutoff = 0.5f; ///< Mask; Blend is drawn as a mask at 0.5 in the opaque frame
   bool doubleSided = false;
   bool unlit = false;
-  TextureSlot baseColorTexture;         ///< sRGB, alpha linear
-  TextureSlot metallicRoughnessTexture; ///< linear: G roughness, B metallic
-  TextureSlot normalTexture;            ///< linear tangent space
-  TextureSlot occlusionTexture;         ///< linear: R
-  TextureSlot emissionTexture;          ///< sRGB
+  float diffuseTransmission = 0;            ///< share of the diffuse light that passes to the other side
+  glm::vec3 diffuseTransmissionColor{1.0f}; ///< linear
+  glm::vec3 absorption{0.0f};               ///< per metre of the inside
+  TextureSlot baseColorTexture;             ///< sRGB, alpha linear
+  TextureSlot metallicRoughnessTexture;     ///< linear: G roughness, B metallic
+  TextureSlot normalTexture;                ///< linear tangent space
+  TextureSlot occlusionTexture;             ///< linear: R
+  TextureSlot emissionTexture;              ///< sRGB
 };
 
 /// Offsets from the base; an array is empty or as long as the positions.

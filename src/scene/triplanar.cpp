@@ -40,8 +40,7 @@ TriplanarSample sampleTriplanar(const TextureSampler& sampler, const Material& m
     const Side side = sideOf(axis, at.normalObject);
     MaterialPoint point;
     point.uv.fill(uvOf(side, at.pointObject, metres));
-    point.uvPerFootprint.fill(
-        {uvOf(side, at.footprintObject[0], metres), uvOf(side, at.footprintObject[1], metres)});
+    point.uvPerFootprint.fill({uvOf(side, at.footprintObject[0], metres), uvOf(side, at.footprintObject[1], metres)});
     const MaterialSample sample = sampler.sampleMaterial(material, point);
     sum.material.baseColor += weights[axis] * sample.baseColor;
     sum.material.metallic += weights[axis] * sample.metallic;

@@ -13,7 +13,7 @@ struct TriplanarPoint {
 };
 
 struct TriplanarSample {
-  MaterialSample material;     ///< its normalTangent says nothing
+  MaterialSample material;      ///< its normalTangent says nothing
   glm::vec3 normalObject{0.0f}; ///< bent by the normal map, unit
 };
 

@@ -151,7 +151,8 @@ TEST_F(Triplanar, SidesOfABoxHaveTheirTexels) {
 TEST_F(Triplanar, SlopesBlendTheirSides) {
   const float half = std::numbers::sqrt2_v<float> / 2;
   const glm::vec3 slope(half, 0, half);
-  const TexturedScene plane([&](glm::vec3 p) { return planeDistance(p, slope, 0); }, {glm::vec3(-0.7f), glm::vec3(0.7f)});
+  const TexturedScene plane([&](glm::vec3 p) { return planeDistance(p, slope, 0); },
+                            {glm::vec3(-0.7f), glm::vec3(0.7f)});
   const View view = makePerspectiveView(2.0f * slope, glm::vec3(0), 0.6f, 0.01f, kSize);
   const FrameLayers layers = draw(plane, view);
   std::size_t count = 0;

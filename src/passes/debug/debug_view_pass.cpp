@@ -16,7 +16,7 @@ PassDeclaration DebugViewPass::declare() {
            {Resource::Shadow, Access::Sampled},
            {Resource::ShadowReads, Access::Sampled}},
           {{Resource::Picture, Access::ImageStore}},
-          {{Resource::Occlusion, Access::Sampled}}};
+          {{Resource::Occlusion, Access::Sampled}, {Resource::Translucency, Access::Sampled}}};
 }
 
 void DebugViewPass::record(const FrameContext& context) {
@@ -25,6 +25,7 @@ void DebugViewPass::record(const FrameContext& context) {
   context.targets.shadow.bind(shared::kShadowUnit);
   context.targets.shadowReads.bind(shared::kShadowReadsUnit);
   if (context.targets.occlusion) context.targets.occlusion.bind(shared::kOcclusionUnit);
+  if (context.targets.thickness) context.targets.thickness.bind(shared::kThicknessUnit);
   context.scene.bindSdfInstances();
   context.targets.picture.bindImage(0, 0, GL_WRITE_ONLY);
   program_->dispatchOver({context.targets.picture.width(), context.targets.picture.height(), 1});

@@ -16,7 +16,9 @@ PassDeclaration LightingPass::declare() {
            {Resource::Shadow, Access::Sampled},
            {Resource::Environment, Access::Sampled}},
           {{Resource::Color, Access::ImageStore}},
-          {{Resource::Shadow, Access::Sampled}, {Resource::Occlusion, Access::Sampled}}};
+          {{Resource::Shadow, Access::Sampled},
+           {Resource::Occlusion, Access::Sampled},
+           {Resource::Translucency, Access::Sampled}}};
 }
 
 void LightingPass::record(const FrameContext& context) {
@@ -30,6 +32,9 @@ void LightingPass::record(const FrameContext& context) {
   const bool isOccluded = context.occlusion.form != OcclusionForm::Off;
   if (isOccluded) context.targets.occlusion.bind(shared::kOcclusionUnit);
   program_->set("isOccluded", isOccluded);
+  const bool isTranslucent = context.translucency.source != TranslucencySource::Off;
+  if (isTranslucent) context.targets.translucent.bind(shared::kTranslucentUnit);
+  program_->set("isTranslucent", isTranslucent);
   program_->set("isBlinnPhong", context.brdf == BrdfModel::BlinnPhong);
   context.targets.color.bindImage(0, 0, GL_WRITE_ONLY);
   program_->dispatchOver({context.targets.color.width(), context.targets.color.height(), 1});

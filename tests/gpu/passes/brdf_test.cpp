@@ -50,7 +50,7 @@ protected:
 TEST_F(ShaderTwins, ReflectedShareIsTheBrdfTimesTheCosine) {
   const auto program = bench_.load("#include \"lib/brdf.glsl\"", R"(
   vec4 a = inputs[index * 4u], n = inputs[index * 4u + 1u], v = inputs[index * 4u + 2u], l = inputs[index * 4u + 3u];
-  outputs[index] = vec4(reflectedShare(Surface(a.rgb, a.w, n.w), n.xyz, v.xyz, l.xyz), 0.0);)");
+  outputs[index] = vec4(reflectedShare(Surface(a.rgb, a.w, n.w, 0.0), n.xyz, v.xyz, l.xyz), 0.0);)");
   constexpr std::size_t kCount = 20000;
   std::vector<glm::vec4> inputs;
   for (std::size_t i = 0; i < kCount; ++i) {
@@ -81,11 +81,12 @@ TEST_F(ShaderTwins, ReflectedShareIsTheBrdfTimesTheCosine) {
   EXPECT_GT(below, kCount / 20);
 }
 
-// A power of s takes n.h's rounding of 1e-7 s times, and GPUs take powers by 2^(s log2 x), whose log2 is off by 1e-6 or so.
+// A power of s takes n.h's rounding of 1e-7 s times, and GPUs take powers by 2^(s log2 x), whose log2 is off by 1e-6 or
+// so.
 TEST_F(ShaderTwins, BlinnPhongShareIsTheTwinTimesTheCosine) {
   const auto program = bench_.load("#include \"lib/brdf.glsl\"", R"(
   vec4 a = inputs[index * 4u], n = inputs[index * 4u + 1u], v = inputs[index * 4u + 2u], l = inputs[index * 4u + 3u];
-  outputs[index] = vec4(blinnPhongShare(Surface(a.rgb, a.w, n.w), n.xyz, v.xyz, l.xyz), 0.0);)");
+  outputs[index] = vec4(blinnPhongShare(Surface(a.rgb, a.w, n.w, 0.0), n.xyz, v.xyz, l.xyz), 0.0);)");
   constexpr std::size_t kCount = 20000;
   std::vector<glm::vec4> inputs;
   for (std::size_t i = 0; i < kCount; ++i) {

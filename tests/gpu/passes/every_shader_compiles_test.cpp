@@ -86,6 +86,8 @@ const std::vector<ProgramSource>& programs() {
        {{GL_COMPUTE_SHADER, "passes/occlusion_spread.comp.glsl"}},
        {{"COUNTERS_ON", "1"}},
        {}},
+      compute("translucency", "passes/translucency.comp.glsl"),
+      {"translucency_counting", {{GL_COMPUTE_SHADER, "passes/translucency.comp.glsl"}}, {{"COUNTERS_ON", "1"}}, {}},
       compute("hierarchy_refit", "passes/hierarchy_refit.comp.glsl"),
       compute("rtsdf_voxelize", "passes/rtsdf_voxelize.comp.glsl"),
       compute("rtsdf_jump_flood", "passes/rtsdf_jump_flood.comp.glsl"),

@@ -87,7 +87,8 @@ TEST_F(SharedStructs, RowsOfSdfObjects) {
               MEMBER(SdfInstance, boxMax), MEMBER(SdfInstance, ids)});
   expectRows("SdfMotion", "sdf_params.h", sizeof(shared::SdfMotion), {ARRAY(SdfMotion, previousWorldFromGrid)});
   expectRows("SdfLook", "sdf_params.h", sizeof(shared::SdfLook),
-             {MEMBER(SdfLook, objectFromGrid), MEMBER(SdfLook, texturing)});
+             {MEMBER(SdfLook, objectFromGrid), MEMBER(SdfLook, texturing), MEMBER(SdfLook, transmission),
+              MEMBER(SdfLook, absorption)});
   expectRows("SdfLevel", "sdf_params.h", sizeof(shared::SdfLevel),
              {MEMBER(SdfLevel, cells), MEMBER(SdfLevel, scale), MEMBER(SdfLevel, attributes)});
   expectRows("BoxCommand", "sdf_params.h", sizeof(shared::BoxCommand),

@@ -172,10 +172,7 @@ TEST(SharedOptions, AreOptional) {
   EXPECT_TRUE(parsed.scene.sdf.patterns.empty());
   EXPECT_FALSE(parsed.scene.cacheFolder);
   EXPECT_FALSE(parsed.scene.sdf.triplanarMetres);
-  EXPECT_THAT(refusalOf([] {
-                parse({"scene.glb", "--triplanar", "0"});
-              }),
-              HasSubstr("--triplanar: 0: is not above 0"));
+  EXPECT_THAT(refusalOf([] { parse({"scene.glb", "--triplanar", "0"}); }), HasSubstr("--triplanar: 0: is not above 0"));
   EXPECT_EQ(parsed.camera.sizePixels, glm::uvec2(1280, 720));
   EXPECT_TRUE(parsed.light.texts.empty());
   EXPECT_EQ(parsed.brdf, BrdfModel::CookTorrance);

@@ -44,6 +44,36 @@ TEST(GltfMaterial, DefaultsAreThoseOfTheSpecification) {
   EXPECT_FALSE(material.unlit);
 }
 
+// Of light of the attenuation colour that is left after the attenuation distance.
+TEST(GltfMaterial, LightThatPassesThrough) {
+  GltfBuilder builder;
+  builder.root["extensionsUsed"] = {"KHR_materials_diffuse_transmission", "KHR_materials_volume"};
+  builder.append("materials", R"({"extensions":{
+    "KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":0.25,"diffuseTransmissionColorFactor":[1,0.5,2]},
+    "KHR_materials_volume":{"attenuationDistance":0.5,"attenuationColor":[0.1,1,0]}}})");
+  builder.append("materials", R"({"extensions":{"KHR_materials_diffuse_transmission":{},"KHR_materials_volume":{}}})");
+  const Scene scene = builder.import();
+  const Material& first = scene.materials[0];
+  EXPECT_EQ(first.diffuseTransmission, 0.25f);
+  EXPECT_EQ(first.diffuseTransmissionColor, glm::vec3(1, 0.5f, 2));
+  EXPECT_NEAR(std::exp(-0.5f * first.absorption.x), 0.1f, 1e-6f);
+  EXPECT_EQ(first.absorption.y, 0.0f);
+  EXPECT_NEAR(std::exp(-0.5f * first.absorption.z), 0.0f, 2e-6f);
+  EXPECT_EQ(scene.materials[1].diffuseTransmission, 0.0f);
+  EXPECT_EQ(scene.materials[1].diffuseTransmissionColor, glm::vec3(1));
+  EXPECT_EQ(scene.materials[1].absorption, glm::vec3(0));
+  for (const char* wrong :
+       {R"({"KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":1.5}})",
+        R"({"KHR_materials_diffuse_transmission":{"diffuseTransmissionColorFactor":[1,-1,1]}})",
+        R"({"KHR_materials_diffuse_transmission":7})", R"({"KHR_materials_volume":{"attenuationDistance":0}})",
+        R"({"KHR_materials_volume":{"attenuationColor":[1,1]}})"}) {
+    GltfBuilder refused;
+    refused.root["extensionsUsed"] = {"KHR_materials_diffuse_transmission", "KHR_materials_volume"};
+    refused.append("materials", json{{"extensions", json::parse(wrong)}});
+    EXPECT_THAT(refused.error(), HasSubstr("KHR_materials")) << wrong;
+  }
+}
+
 TEST(GltfMaterial, EveryMemberArrives) {
   GltfBuilder builder = textured();
   builder.root["extensionsUsed"] = {"KHR_materials_emissive_strength", "KHR_materials_unlit"};
