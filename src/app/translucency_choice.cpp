@@ -34,11 +34,12 @@ std::string translucencyText(const TranslucencySettings& settings) {
 }
 
 void addTranslucencyOptions(CLI::App& command, TranslucencyChoice& choice) {
-  addValue(command, "--translucency",
-           "Light through SDF objects, dimmed by the way through their bricks: off (the default); on, as "
-           "KHR_materials_diffuse_transmission and KHR_materials_volume of their first material say; or SHARE:R,G,B for "
-           "all of them: the share of diffuse light that passes, what is absorbed per metre",
-           [&](auto& flag, auto& text) { choice.settings = parseTranslucency(flag, text); })
+  addValue(
+      command, "--translucency",
+      "Light through SDF objects, dimmed by the way through their bricks: off (the default); on, as "
+      "KHR_materials_diffuse_transmission and KHR_materials_volume of their first material say; or SHARE:R,G,B for "
+      "all of them: the share of diffuse light that passes, what is absorbed per metre",
+      [&](auto& flag, auto& text) { choice.settings = parseTranslucency(flag, text); })
       ->type_name("WHAT");
   addValue(command, "--translucency-wrap", "How far that light reaches round to the front, 0 (the default) to 1",
            [&](auto& flag, auto& text) { choice.wrap = static_cast<float>(parseNumber(flag, text, 0, 1)); })

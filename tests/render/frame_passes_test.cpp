@@ -118,6 +118,32 @@ TEST_F(FramePasses, FieldIsCountedAsItIsMade) {
   EXPECT_LT(stats.keyTiles, stats.tiles);
 }
 
+// Where nothing is any more, nothing shows of the frame before.
+TEST_F(FramePasses, BackgroundsForgetTheFrameBefore) {
+  const TestScene scene(makeInterpenetration(), "Torus", 16);
+  RendererSettings settings;
+  settings.worldField.shape = {1, 16, 0, false};
+  settings.shadows.method = ShadowMethod::Field;
+  settings.occlusion.form = OcclusionForm::Cones;
+  settings.translucency.source = TranslucencySource::Given;
+  const auto renderer = scene.makeRenderer(context().info(), settings);
+  const View near = scene.view({0, 0, 2}, {0, 0, 0}, {32, 32}), far = scene.view({0, 0, 9}, {0, 0, 0}, {32, 32});
+  std::vector<std::string> shown{""};
+  for (const DebugView& view : debugViews())
+    if (!view.readsField && !view.readsShadowMaps && !view.readsTemporal) shown.push_back(view.name);
+  for (const DrawOrder order : {DrawOrder::MeshesFirst, DrawOrder::BoxesFirstAllReversed})
+    for (const std::string& name : shown) {
+      settings.view = name;
+      settings.drawOrder = order;
+      const auto fresh = scene.makeRenderer(context().info(), settings);
+      renderer->setSettings(settings);
+      renderer->render(near);
+      renderer->render(far);
+      fresh->render(far);
+      EXPECT_EQ(renderer->readPicture(), fresh->readPicture()) << name;
+    }
+}
+
 // What --view says of its colours is what the shader is told: red, no blue, from the named count on.
 TEST_F(FramePasses, HeatViewsNameTheirRange) {
   for (const DebugView& view : debugViews())

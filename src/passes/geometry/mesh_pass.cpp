@@ -71,12 +71,13 @@ PassDeclaration ClearPass::declare() {
            {Resource::DepthMesh, Access::Attachment}}};
 }
 
+// Layers hold whatever they did where the id says that nothing is there.
 void ClearPass::record(const FrameContext& context) {
+  constexpr int kId = 4;
   FrameTargets& targets = context.targets;
-  targets.depthMesh.clear(glm::vec4(0));
   targets.gbuffer.clearDepth(0.0f);
-  for (int output = 0; output < 4; ++output) targets.gbuffer.clearColor(output, glm::vec4(0));
-  for (int output = 4; output < 6; ++output) targets.gbuffer.clearColor(output, glm::uvec4(0));
+  targets.gbuffer.clearColor(kId, glm::uvec4(0));
+  if (context.drawOrder == DrawOrder::BoxesFirstAllReversed) targets.depthMesh.clear(glm::vec4(0)); // else it is copied
 }
 
 PassDeclaration DepthCopyPass::declare() {

@@ -7,8 +7,8 @@
 
 namespace brickfield {
 
-/// Materials: as KHR_materials_diffuse_transmission and KHR_materials_volume of each object's first material say. Given:
-/// all objects alike.
+/// Materials: as KHR_materials_diffuse_transmission and KHR_materials_volume of each object's first material say.
+/// Given: all objects alike.
 enum class TranslucencySource : std::uint8_t { Off, Materials, Given };
 
 struct TranslucencySettings {

@@ -135,7 +135,8 @@ TEST_F(Translucency, SpheresAndBoxesAreAsThickAsTheyAre) {
             expected = 2 * std::sqrt(root2) / length;
           } else {
             const glm::vec2 t = crossBox(origin, direction);
-            if (t.x >= t.y || std::min(toEdge(origin + t.x * direction), toEdge(origin + t.y * direction)) < voxel) continue;
+            if (t.x >= t.y || std::min(toEdge(origin + t.x * direction), toEdge(origin + t.y * direction)) < voxel)
+              continue;
             expected = t.y - t.x;
           }
           ++count;
@@ -180,7 +181,8 @@ TEST_F(Translucency, LightOfTheBackIsDimmedByItsWay) {
       for (int c = 0; c < 3; ++c) {
         const float expected = kShare / kPi * kLux * weight * std::exp(-absorption[c] * 2 * kRadius * cosine);
         // Half a voxel of way, the normal's 1 %, and half floats.
-        const float slack = expected * (0.5f * object.voxelWorld * absorption[c] + 0.002f) + 0.012f * kShare / kPi * kLux;
+        const float slack =
+            expected * (0.5f * object.voxelWorld * absorption[c] + 0.002f) + 0.012f * kShare / kPi * kLux;
         ASSERT_NEAR(layers.color[i][c], expected, slack) << "wrap " << wrap << " pixel " << i << " cosine " << cosine;
       }
     }
@@ -197,7 +199,8 @@ TEST_F(Translucency, SharesAddUp) {
   SurfaceBrdf brdf = makeBrdf(glm::vec3(1), 0, 1);
   brdf.diffuse *= 1 - kShare;
   const glm::vec3 up(0, 0, 1);
-  EXPECT_NEAR(draw(object, view, given(kShare, glm::vec3(0))).color[40].x, kPi * evaluateBrdf(brdf, up, up, up).x, 2e-3f);
+  EXPECT_NEAR(draw(object, view, given(kShare, glm::vec3(0))).color[40].x, kPi * evaluateBrdf(brdf, up, up, up).x,
+              2e-3f);
   for (const double wrap : {0.0, 0.3, 1.0}) {
     double sum = 0;
     constexpr int kSteps = 100000;

@@ -37,7 +37,9 @@ TEST(TranslucencyChoice, WordsAndNumbers) {
 TEST(TranslucencyChoice, WhatIsWrongIsNamed) {
   for (const char* text : {"yes", "0.5", "0.5:1,2", "1.5:0,0,0", "0.5:1,2,-3", ":", "0.5:1,2,3:4"})
     EXPECT_THAT(refusalOf([&] { parse({text, "--translucency"}); }), HasSubstr("--translucency: ")) << text;
-  EXPECT_THAT(refusalOf([] { parse({"0.5", "--translucency-wrap"}); }),
+  EXPECT_THAT(refusalOf([] {
+                parse({"0.5", "--translucency-wrap"});
+              }),
               HasSubstr("--translucency-wrap: needs --translucency"));
   EXPECT_THAT(refusalOf([] {
                 parse({"2", "--translucency-wrap", "on", "--translucency"});
