@@ -343,7 +343,7 @@ shared::FrameParams Renderer::Parts::fillParams() const {
     params.debugRange = {std::max(0.0f, toCenter - radius), toCenter + radius, 0, 0};
   }
   if (shown && shown->number == shared::DEBUG_VIEW_THICKNESS && !pose.boundsWorld.isEmpty())
-    params.debugRange = {0, 0.1f * glm::length(pose.boundsWorld.extent()), 0, 0};
+    params.debugRange = {0, 0.25f * glm::length(pose.boundsWorld.extent()), 0, 0};
   if (temporal) {
     const View& before = temporal->hasHistory ? previousView : view;
     View still = before;

@@ -87,7 +87,8 @@ const std::vector<DebugView>& debugViews() {
        shared::DEBUG_VIEW_MOTION, kMotionRange, false, false, false, false, false, true},
       {"taa-frames", fmt::format("frames in each pixel's average, blue 0 to red {}", kTaaRange),
        shared::DEBUG_VIEW_TAA_FRAMES, kTaaRange, false, false, false, false, false, true},
-      {"thickness", "metres of the SDF object that the view ray crosses, blue 0 to red a tenth of the scene's diagonal",
+      {"thickness",
+       "metres of the SDF object that the view ray crosses, as heat up to a quarter of the scene's diagonal",
        shared::DEBUG_VIEW_THICKNESS},
       {"ao", "ambient occlusion by --ao: white open, black hidden", shared::DEBUG_VIEW_AO},
   };

@@ -23,7 +23,9 @@ std::vector<std::string> namesOf(const std::vector<PassTime>& times) {
 }
 
 TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
-  const TestScene scene(makeInterpenetration(), "Torus", 16);
+  Scene built = makeInterpenetration();
+  for (Node& node : built.nodes) node.sdf.triplanar = 1.0f;
+  const TestScene scene(std::move(built), "Torus", 16);
   const auto renderer = scene.makeRenderer(context().info());
   const View view = scene.autoView({64, 36});
   const std::vector<std::string> listed = framePassNames();
@@ -38,6 +40,7 @@ TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
     if (settings.view == "shadow-map") settings.shadows.method = ShadowMethod::Maps;
     settings.taa.on = settings.view == "motion";
     settings.occlusion.form = settings.view == "steps" ? OcclusionForm::Cones : OcclusionForm::Off;
+    settings.translucency.source = settings.view == "steps" ? TranslucencySource::Materials : TranslucencySource::Off;
     settings.worldField.method = settings.view == "field" ? FieldMethod::Exact : FieldMethod::Rtsdf;
     renderer->setSettings(settings);
     renderer->render(view);

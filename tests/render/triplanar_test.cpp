@@ -120,9 +120,11 @@ TEST_F(Triplanar, SidesOfABoxHaveTheirTexels) {
     const glm::mat4 objectFromWorld = glm::inverse(affine.worldFromObject);
     const glm::vec3 middle(affine.worldFromObject[3]);
     std::array<std::size_t, 6> seen{};
-    for (const glm::vec3 from : {glm::vec3(1.6f, 1.3f, 1.9f), glm::vec3(-1.6f, -1.5f, -1.8f)}) {
-      const float away = 1.6f * scaleRange(affine.worldFromObject).y;
-      const View view = makePerspectiveView(middle + away * from, middle, 0.8f, 0.01f, kSize);
+    for (int side = 0; side < 6; ++side) {
+      glm::vec3 outward(0.2f, 0.3f, 0.25f); // of the object, so that squeezed ones show each side too
+      outward[side / 2] = side % 2 == 0 ? 2.5f : -2.5f;
+      const View view =
+          makePerspectiveView(middle + glm::mat3(affine.worldFromObject) * outward, middle, 0.8f, 0.001f, kSize);
       const FrameLayers layers = draw(box, view);
       for (std::size_t i = 0; i < layers.id.size(); ++i) {
         if (layers.id[i] < 0) continue;

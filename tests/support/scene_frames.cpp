@@ -34,6 +34,7 @@ void TestScene::prepare(const std::string& sdf, int resolution, std::optional<do
   const std::filesystem::path cache = std::filesystem::path(BRICKFIELD_BINARY_DIR) / "test-cache";
   std::filesystem::create_directories(cache);
   fields_ = bakeSceneFields(*scene_, pose_, sdfNodes(*scene_, sdfRequest, 0), cache, {}).fields;
+  fields_.triplanarOfNode = triplanarNodes(*scene_, sdfRequest);
 }
 
 void TestScene::darkenEnvironment() { lighting_.environment = {{16, 8}, std::vector<glm::vec3>(128, glm::vec3(0))}; }

@@ -236,7 +236,11 @@ TEST_F(Translucency, MaterialsSayWhatPasses) {
   const glm::vec3 found = draw(object, view, {TranslucencySource::Materials}).color[40];
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 4e-3f);
   EXPECT_LT(draw(object, view, {}).color[40].x, 1e-3f) << "off";
-  material.metallic = 1;
+  addAttributes(object.fields.fields[0], [](glm::vec3) {
+    SurfaceAttributes attributes;
+    attributes.metallic = 1;
+    return attributes;
+  });
   EXPECT_LT(draw(object, view, {TranslucencySource::Materials}).color[40].x, 1e-3f) << "metals are opaque";
 }
 
