@@ -12,6 +12,7 @@ layout(binding = kShadowUnit) uniform sampler2D shadow;
 layout(binding = kShadowReadsUnit) uniform usampler2D shadow_reads;
 layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 layout(binding = kThicknessUnit) uniform sampler2D thickness;
+layout(binding = kReflectionUnit) uniform sampler2D reflection;
 layout(binding = 0, rgba8) writeonly uniform image2D picture;
 
 uint nodeOfId(uint packedId) {
@@ -54,6 +55,7 @@ void main() {
     case DEBUG_VIEW_SHADOW_READS: shown = heat(viewUnit(float(texelFetch(shadow_reads, pixel, 0).r))); break;
     case DEBUG_VIEW_AO: shown = vec3(texelFetch(occlusion, pixel, 0).r); break;
     case DEBUG_VIEW_THICKNESS: shown = kind == KIND_SDF ? heat(viewUnit(texelFetch(thickness, pixel, 0).r)) : vec3(0.08); break;
+    case DEBUG_VIEW_REFLECTION: shown = kind == KIND_NONE ? vec3(0.0) : srgbFromLinear(filmicCurve(texelFetch(reflection, pixel, 0).rgb * frame.projection.w)); break;
     default: break;
   }
   imageStore(picture, pixel, vec4(shown, 1.0));

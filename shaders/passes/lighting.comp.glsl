@@ -1,52 +1,34 @@
 // Deferred light of the whole frame: direct light, image-based light, emission, sky.
-#include "lib/brdf.glsl"
-#include "lib/environment.glsl"
 #include "lib/gbuffer.glsl"
-#include "lib/light_arrival.glsl"
-#include "lib/spherical_harmonics.glsl"
+#include "lib/surface_light.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(std430, binding = kLightBinding) readonly buffer LightBlock { LightRow lights[]; };
-layout(binding = kEnvironmentUnit) uniform sampler2D environment_prefiltered;
-layout(binding = kEnvironmentBrdfUnit) uniform sampler2D environment_brdf;
 layout(binding = kShadowUnit) uniform sampler2D shadow;
 layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 layout(binding = kTranslucentUnit) uniform sampler2D translucent;
+layout(binding = kReflectionUnit) uniform sampler2D reflection;
 layout(binding = 0, rgba16f) writeonly uniform image2D color;
 
 uniform int shadowedLights; // the first ones
-uniform bool isOccluded, isTranslucent;
-uniform bool isBlinnPhong; // of direct light; the surroundings are always those of Cook-Torrance
+uniform bool isOccluded, isTranslucent, isMirrored;
 
-vec3 directShare(Surface surface, vec3 normal, vec3 toViewer, vec3 toLight) {
-  return isBlinnPhong ? blinnPhongShare(surface, normal, toViewer, toLight) : reflectedShare(surface, normal, toViewer, toLight);
-}
-
-// From a panel of one radiance on its front: as from 16 points of it.
-vec3 rectangleLight(LightRow light, Surface surface, vec3 pointWorld, vec3 normal, vec3 toViewer) {
-  const int SIDE = 4;
-  vec3 up = normalize(cross(light.cone.xyz, light.direction.xyz)) * light.cone.w, sum = vec3(0.0);
-  for (int i = 0; i < SIDE * SIDE; ++i) {
-    vec2 place = (vec2(i % SIDE, i / SIDE) + 0.5) * (2.0 / float(SIDE)) - 1.0;
-    vec3 offset = light.position.xyz + place.x * light.cone.xyz + place.y * up - pointWorld;
-    float distance2 = max(dot(offset, offset), 1e-8);
-    vec3 toLight = offset * inversesqrt(distance2);
-    float facing = max(dot(light.direction.xyz, -toLight), 0.0);
-    sum += facing / distance2 * directShare(surface, normal, toViewer, toLight);
-  }
-  return light.intensity.rgb * sum / float(SIDE * SIDE);
-}
-
-vec3 environmentLight(Surface surface, vec3 normal, vec3 toViewer, float occlusion) {
-  float nDotV = clamp(dot(normal, toViewer), 0.0, 1.0);
-  vec3 f0 = mix(vec3(0.04), surface.baseColor, surface.metallic);
-  vec2 scaleBias = textureLod(environment_brdf, vec2(nDotV, surface.roughness), 0.0).rg;
-  vec3 specularShare = f0 * scaleBias.x + scaleBias.y;
-  float mip = surface.roughness * float(frame.counts.w - 1u);
-  vec3 specular = textureLod(environment_prefiltered, equirectFromDirection(reflect(-toViewer, normal)), mip).rgb;
-  vec3 diffuse = evaluateHarmonics(frame.irradiance, normal) / kPi * diffuseColor(surface);
-  return occlusion * ((1.0 - specularShare) * diffuse + specularShare * specular);
+// What a rough surface mirrors is the mean over more of it, the rougher the wider: of the same thing, turned alike.
+vec3 mirroredAround(ivec2 pixel, vec3 normal, float roughness) {
+  const float PIXELS = 8.0, MOST_PIXELS = 2.0, SAME_NORMAL = 0.9;
+  float width = min(PIXELS * roughness, MOST_PIXELS);
+  int reach = int(ceil(width));
+  uint shown = texelFetch(id, pixel, 0).r;
+  vec4 sum = vec4(0.0);
+  for (int y = -reach; y <= reach; ++y)
+    for (int x = -reach; x <= reach; ++x) {
+      ivec2 at = clamp(pixel + ivec2(x, y), ivec2(0), ivec2(frame.size.xy) - 1);
+      if (texelFetch(id, at, 0).r != shown) continue;
+      if (dot(directionFromOctahedral(texelFetch(normal_world_oct, at, 0).xy), normal) < SAME_NORMAL) continue;
+      float weight = width > 0.0 ? exp(-float(x * x + y * y) / (width * width)) : 1.0;
+      sum += weight * vec4(texelFetch(reflection, at, 0).rgb, 1.0);
+    }
+  return sum.rgb / sum.a; // the pixel itself is in it
 }
 
 void main() {
@@ -55,7 +37,7 @@ void main() {
   vec3 originEye, directionWorld;
   viewRay(ndcFromPixel(vec2(pixel) + 0.5), originEye, directionWorld);
   if (kindOfId(texelFetch(id, pixel, 0).r) == KIND_NONE) {
-    imageStore(color, pixel, vec4(textureLod(environment_prefiltered, equirectFromDirection(directionWorld), 0.0).rgb, 1.0));
+    imageStore(color, pixel, vec4(environmentAround(directionWorld, 0.0), 1.0));
     return;
   }
   vec4 properties = texelFetch(material, pixel, 0);
@@ -69,19 +51,12 @@ void main() {
     vec3 pointWorld = frame.eyeWorld.xyz + (originEye + t * directionWorld);
     vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).xy);
     vec3 toViewer = -directionWorld;
-    float open = properties.b * (isOccluded ? texelFetch(occlusion, pixel, 0).r : 1.0);
-    radiance = texelFetch(emission, pixel, 0).rgb + through.rgb + environmentLight(surface, normal, toViewer, open);
-    vec4 visible = texelFetch(shadow, pixel, 0);
-    for (int i = 0; i < int(frame.size.z); ++i) {
-      float share = i < shadowedLights ? visible[i] : 1.0;
-      if (uint(lights[i].position.w) == LIGHT_RECTANGLE) {
-        radiance += share * rectangleLight(lights[i], surface, pointWorld, normal, toViewer);
-        continue;
-      }
-      vec3 toLight;
-      vec3 irradiance = share * lightAt(lights[i], pointWorld, toLight);
-      radiance += irradiance * directShare(surface, normal, toViewer, toLight);
-    }
+    float open = isOccluded ? texelFetch(occlusion, pixel, 0).r : 1.0;
+    // What is mirrored was traced where it is: what stands around is in it.
+    vec3 mirrored = isMirrored ? mirroredAround(pixel, normal, surface.roughness) : environmentAround(reflect(-toViewer, normal), surface.roughness);
+    radiance = texelFetch(emission, pixel, 0).rgb + through.rgb +
+               environmentLight(surface, normal, toViewer, properties.b * open, isMirrored ? properties.b : properties.b * open, mirrored) +
+               directLight(surface, pointWorld, normal, toViewer, texelFetch(shadow, pixel, 0), shadowedLights);
   }
   imageStore(color, pixel, vec4(min(radiance, vec3(65504.0)), 1.0));
 }

@@ -1,6 +1,7 @@
 // Traces one SDF object through one pixel and writes the G-buffer. Conservative depth: a hit lies behind the box face,
 // and with reverse Z behind means smaller; the value is clamped to the face's own, so the promise holds to the last bit.
 // DEPTH_ONLY: into a shadow map; the frame's parameters are then those of the light's view.
+#include "lib/brick_attributes.glsl"
 #include "lib/brick_trace.glsl"
 #include "lib/frame.glsl"
 #include "lib/motion.glsl"
@@ -40,26 +41,14 @@ const int kMostCuts = 16;
 // Beyond the hit, far enough that its own rounding is not met again.
 const float kPastCutVoxels = 1e-2;
 
-const vec4 kRoughDielectric = vec4(0.0, 1.0, 1.0, 0.0); // as material
-
-// Writes the attributes of the surface at a point, from the level's attribute bricks; without them white and rough.
-// Returns its coverage: below a half the surface is cut away there.
+// Writes the attributes of the surface at a point. Returns its coverage: below a half the surface is cut away there.
 float writeSurface(SdfLevel level, vec3 pointLevel) {
-  albedo = vec4(1.0);
-  material = kRoughDielectric;
-  emission = vec3(0.0);
-  if (level.attributes.x == SDF_NO_ATTRIBUTES) return 1.0;
-  vec3 p = clamp(pointLevel, vec3(0.0), vec3(level.cells.yzw * BRICK_CELLS));
-  ivec3 brick = brickOfPoint(level, p);
-  uint slot = cellOfBrick(level.attributes.x, level, brick);
-  if ((slot & CELL_EMPTY) != 0u) return 1.0;
-  ivec3 size = textureSize(brick_base_color, 0);
-  vec3 uvw = (vec3(texelOfSlot(slot)) + (p - vec3(brick) * float(BRICK_CELLS)) + 0.5) / vec3(size);
-  vec4 colorAndCoverage = textureLod(brick_base_color, uvw, 0.0);
-  albedo = vec4(colorAndCoverage.rgb, 1.0);
-  material = textureLod(brick_material, uvw, 0.0);
-  emission = textureLod(brick_emission, uvw, 0.0).rgb;
-  return colorAndCoverage.a;
+  BrickAttributes found;
+  readAttributes(level, pointLevel, found);
+  albedo = vec4(found.colorAndCoverage.rgb, 1.0);
+  material = found.material;
+  emission = found.emission;
+  return found.colorAndCoverage.a;
 }
 
 void main() {

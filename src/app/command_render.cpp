@@ -34,6 +34,7 @@ int render(RenderRequest& request) {
                          request.field.settings.method == FieldMethod::Exact);
   settleOcclusionChoice(request.occlusion, request.view, request.field.settings.method != FieldMethod::Off);
   settleTranslucencyChoice(request.translucency, request.view);
+  checkReflectionChoice(request.reflections, request.view, request.field.settings.method == FieldMethod::Exact);
   checkInputPath(request.scene.path, {".gltf", ".glb"});
   runRender(request);
   return 0;
@@ -69,6 +70,7 @@ void addOptions(CLI::App& command, RenderRequest& request) {
   })->type_name("S");
   addOcclusionOptions(command, request.occlusion);
   addTranslucencyOptions(command, request.translucency);
+  addReflectionOptions(command, request.reflections);
   addName(command, "--view", "A debug view instead of the picture; see \"brickfield list views\"", request.view);
   addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", request.layers);
   addPath(command, "--stats", "Times, counts and memory as .json", request.stats);

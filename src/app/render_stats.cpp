@@ -108,6 +108,8 @@ Json settingsJson(const RenderRun& run) {
   json["ao"] = occlusionSettingsJson(request.occlusion.settings);
   json["translucency"] = {{"what", translucencyText(request.translucency.settings)},
                           {"wrap", request.translucency.settings.wrap}};
+  const ReflectionSettings& reflections = request.reflections.settings;
+  json["reflections"] = {{"method", reflectionMethodName(reflections.method)}, {"every_nth_pixel", reflections.scale}};
   json["brdf"] = brdfModelName(request.brdf);
   json["light"] = request.light.texts.empty() ? Json("scene") : Json(request.light.texts);
   json["environment"] = request.light.environment.empty() ? "sky" : request.light.environment.string();
@@ -200,6 +202,7 @@ Json countsJson(const FrameStats& stats) {
           {"shadow_reads", stats.counters.shadowReads},
           {"ao_reads", stats.counters.occlusionReads},
           {"inside_steps", stats.counters.insideSteps},
+          {"reflection_reads", stats.counters.reflectionReads},
           {"shadow_map_layers", stats.shadowMapLayers},
           {"shadow_map_fragments", stats.counters.mapFragments},
           {"shadow_map_steps", stats.counters.mapSteps}};

@@ -38,6 +38,7 @@ RendererSettings settingsOf(const RenderRequest& request) {
   settings.taa = request.taa;
   settings.occlusion = request.occlusion.settings;
   settings.translucency = request.translucency.settings;
+  settings.reflections = request.reflections.settings;
   settings.brdf = request.brdf;
   settings.fieldSlice = request.field.slice;
   return settings;

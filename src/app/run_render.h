@@ -9,6 +9,7 @@
 #include "app/field_shadow_choice.h"
 #include "app/occlusion_choice.h"
 #include "app/options.h"
+#include "app/reflection_choice.h"
 #include "app/shadow_choice.h"
 #include "app/translucency_choice.h"
 
@@ -31,6 +32,7 @@ struct RenderRequest {
   TaaSettings taa;
   OcclusionChoice occlusion;       ///< settled
   TranslucencyChoice translucency; ///< settled
+  ReflectionChoice reflections;    ///< checked
   FieldChoice field;               ///< settled
   BrdfModel brdf = BrdfModel::CookTorrance;
   float exposureEv = 0;

@@ -5,6 +5,7 @@
 #include "gpu/texture.h"
 #include "passes/frame_targets.h"
 #include "passes/light/occlusion_settings.h"
+#include "passes/light/reflection_settings.h"
 #include "passes/light/shadow_settings.h"
 #include "passes/light/translucency_settings.h"
 #include "passes/visible_boxes.h"
@@ -40,6 +41,7 @@ struct FrameContext {
   OcclusionSettings occlusion = {};
   BrdfModel brdf = BrdfModel::CookTorrance; ///< of direct light
   TranslucencySettings translucency = {};
+  ReflectionSettings reflections = {};
 };
 
 } // namespace brickfield

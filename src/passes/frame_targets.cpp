@@ -59,6 +59,13 @@ void FrameTargets::fitTranslucency(bool isMade) {
   thickness = layer("thickness", GL_R32F, size);
 }
 
+void FrameTargets::fitReflections(bool isMade) {
+  if (!isMade) reflectionHit = {}, reflection = {};
+  if (!isMade || reflection) return;
+  reflectionHit = layer("reflection_hit", GL_RGBA32UI, size);
+  reflection = layer("reflection", GL_RGBA16F, size);
+}
+
 void FrameTargets::bindGBuffer() const {
   depth.bind(shared::kDepthUnit);
   normalWorldOct.bind(shared::kNormalUnit);
@@ -72,8 +79,9 @@ void FrameTargets::bindGBuffer() const {
 std::size_t FrameTargets::bytes() const {
   std::size_t sum = 0;
   for (const Texture* texture :
-       {&depth, &depthMesh, &normalWorldOct, &albedo, &material, &emission, &id, &trace, &shadow, &shadowHalf,
-        &shadowReads, &occlusion, &occlusionTraced, &translucent, &thickness, &color, &picture, &boxOverdraw})
+       {&depth,     &depthMesh,     &normalWorldOct, &albedo,      &material,  &emission,        &id,
+        &trace,     &shadow,        &shadowHalf,     &shadowReads, &occlusion, &occlusionTraced, &translucent,
+        &thickness, &reflectionHit, &reflection,     &color,       &picture,   &boxOverdraw})
     if (*texture) sum += texture->bytes();
   return sum;
 }

@@ -27,17 +27,21 @@ struct FrameTargets {
   Texture occlusionTraced; ///< RG32UI: the same at fewer pixels, lib/occlusion_code.glsl
   Texture translucent; ///< RGBA16F: radiance through SDF objects, share of diffuse light; none without fitTranslucency
   Texture thickness;   ///< R32F: metres of an SDF object along the view ray; the same
-  Texture color;       ///< RGBA16F: linear radiance
-  Texture picture;     ///< RGBA8: after the tone curve
-  Texture boxOverdraw; ///< R16F
-  Framebuffer gbuffer; ///< depth and the six layers, in the order of the fragment outputs
-  Framebuffer surface; ///< of it what textures decide: normal, albedo, material, emission
+  Texture reflectionHit; ///< RGBA32UI: what reflected rays meet, lib/reflection_code.glsl; none without fitReflections
+  Texture reflection;    ///< RGBA16F: radiance that smooth surfaces mirror; the same
+  Texture color;         ///< RGBA16F: linear radiance
+  Texture picture;       ///< RGBA8: after the tone curve
+  Texture boxOverdraw;   ///< R16F
+  Framebuffer gbuffer;   ///< depth and the six layers, in the order of the fragment outputs
+  Framebuffer surface;   ///< of it what textures decide: normal, albedo, material, emission
   Framebuffer overdraw;
 
   /// Makes the textures of occlusion that is traced at every scale-th pixel along both axes; 0: frees them.
   void fitOcclusion(int scale);
   /// Makes the textures of translucency, or frees them.
   void fitTranslucency(bool isMade);
+  /// Makes the textures of reflections, or frees them.
+  void fitReflections(bool isMade);
   /// Binds the G-buffer's textures to the units of lib/gbuffer.glsl.
   void bindGBuffer() const;
   std::size_t bytes() const;

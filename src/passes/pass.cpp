@@ -39,6 +39,10 @@ const char* resourceName(Resource resource) {
     return "occlusion";
   case Resource::Translucency:
     return "translucency";
+  case Resource::ReflectionHit:
+    return "reflection_hit";
+  case Resource::Reflection:
+    return "reflection";
   case Resource::Color:
     return "color";
   case Resource::History:

@@ -27,6 +27,8 @@ enum class Resource : std::uint8_t {
   OcclusionTraced, ///< open shares of the hemisphere at fewer pixels
   Occlusion,       ///< at all of them
   Translucency,    ///< light through SDF objects, and their thickness
+  ReflectionHit,   ///< what reflected rays meet
+  Reflection,      ///< how bright it is
   Color,
   History, ///< pictures and depths averaged over frames
   Picture,
@@ -40,7 +42,7 @@ enum class Resource : std::uint8_t {
   WorldFieldCoarse,  ///< unsigned, less the thickness
   WorldField,        ///< the volume that other passes read, and what it keeps from frame to frame
 };
-inline constexpr int kResourceCount = 28;
+inline constexpr int kResourceCount = 30;
 const char* resourceName(Resource resource);
 
 /// How the GPU touches it: decides the barrier after incoherent writes.

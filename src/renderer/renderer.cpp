@@ -19,6 +19,7 @@
 #include "passes/geometry/triplanar_pass.h"
 #include "passes/light/environment_pass.h"
 #include "passes/light/field_occlusion_pass.h"
+#include "passes/light/field_reflection_pass.h"
 #include "passes/light/field_shadow_pass.h"
 #include "passes/light/lighting_pass.h"
 #include "passes/light/map_shadow_pass.h"
@@ -70,6 +71,8 @@ void recordPass(RtsdfRaysPass& pass, const FrameContext& frame) {
 }
 void recordPass(TriplanarPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(TranslucencyPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(FieldReflectionPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(ReflectionShadePass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(FieldShadowPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(FieldOcclusionPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(OcclusionSpreadPass& pass, const FrameContext& frame) { pass.record(frame); }
@@ -105,7 +108,7 @@ constexpr bool isLate = requires(Pass pass, ShaderLibrary& shaders) {
 struct FrameShape {
   bool boxesFirst = false, hasTriplanar = false;
   bool hasExactField = false, hasRtsdfField = false, hasShadows = false, hasOcclusion = false;
-  bool hasTranslucency = false, hasShadowMaps = false, hasShadowMoments = false, hasTaa = false;
+  bool hasTranslucency = false, hasReflections = false, hasShadowMaps = false, hasShadowMoments = false, hasTaa = false;
   bool showsPicture = false, showsDebugView = false, showsFieldView = false, showsShadowMaps = false, showsTaa = false;
 };
 
@@ -142,6 +145,8 @@ struct Renderer::Parts {
   LatePass<FieldOcclusionPass> fieldOcclusion;
   LatePass<OcclusionSpreadPass> occlusionSpread;
   LatePass<TranslucencyPass> translucency;
+  LatePass<FieldReflectionPass> fieldReflection;
+  LatePass<ReflectionShadePass> reflectionShade;
   LatePass<FieldViewPass> fieldView;
   LatePass<ShadowMapPass> shadowMap;
   LatePass<ShadowMomentsPass> shadowMoments;
@@ -214,7 +219,8 @@ bool Renderer::Parts::readsField() const {
   if (settings.worldField.method == FieldMethod::Off) return false;
   const DebugView* shown = findView(settings.view);
   return settings.worldField.always || settings.shadows.method == ShadowMethod::Field ||
-         settings.occlusion.form != OcclusionForm::Off || (shown && shown->readsField);
+         settings.occlusion.form != OcclusionForm::Off || settings.reflections.method != ReflectionMethod::Off ||
+         (shown && shown->readsField);
 }
 
 const FieldFrame& Renderer::Parts::prepareField() {
@@ -283,6 +289,10 @@ void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
     take(&Parts::occlusionSpread); // over all pixels
   }
   if (shape.hasTranslucency) take(&Parts::translucency);
+  if (shape.hasReflections) {
+    take(&Parts::fieldReflection);
+    take(&Parts::reflectionShade); // by the shadows and the occlusion of what the picture shows
+  }
   take(&Parts::lighting); // also under a debug view: layers are whole whatever the picture shows
   if (shape.hasTaa) {
     take(&Parts::taa);
@@ -309,6 +319,7 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
                          context.shadows && context.shadows->method == ShadowMethod::Field,
                          context.occlusion.form != OcclusionForm::Off,
                          context.translucency.source != TranslucencySource::Off,
+                         context.reflections.method != ReflectionMethod::Off,
                          context.shadowMaps != nullptr,
                          context.shadowMaps && settings.shadowMaps.filter == ShadowFilter::Evsm,
                          context.temporal != nullptr,
@@ -409,6 +420,7 @@ void Renderer::render(const View& view) {
   const OcclusionSettings& occlusion = parts.settings.occlusion;
   parts.targets->fitOcclusion(occlusion.form == OcclusionForm::Off ? 0 : occlusion.scale);
   parts.targets->fitTranslucency(parts.settings.translucency.source != TranslucencySource::Off);
+  parts.targets->fitReflections(parts.settings.reflections.method != ReflectionMethod::Off);
   parts.view = view;
   parts.nodeOfInstance.clear();
   for (const shared::SdfInstance& row : parts.scene->sdfInstances()) parts.nodeOfInstance.push_back(row.ids.x);
@@ -438,7 +450,8 @@ void Renderer::render(const View& view) {
                              parts.temporal.get(),
                              parts.settings.occlusion,
                              parts.settings.brdf,
-                             parts.settings.translucency};
+                             parts.settings.translucency,
+                             parts.settings.reflections};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDisable(GL_BLEND);
   glEnable(GL_FRAMEBUFFER_SRGB); // albedo is stored as sRGB; the other targets are linear and unaffected
@@ -465,7 +478,7 @@ FrameStats Renderer::stats() {
                     counts[shared::COUNTER_PROMISE_BROKEN], counts[shared::COUNTER_OUT_OF_STEPS],
                     counts[shared::COUNTER_SHADOW_READS],   counts[shared::COUNTER_OCCLUSION_READS],
                     counts[shared::COUNTER_MAP_FRAGMENTS],  counts[shared::COUNTER_MAP_STEPS],
-                    counts[shared::COUNTER_INSIDE_STEPS]};
+                    counts[shared::COUNTER_INSIDE_STEPS],   counts[shared::COUNTER_REFLECTION_READS]};
   if (parts.settings.shadows.method == ShadowMethod::Maps && parts.shadowMaps)
     stats.shadowMapLayers = static_cast<std::uint32_t>(parts.shadowMaps->layerCount());
   stats.sdfInstances = parts.scene->sdfInstanceCount();
@@ -505,7 +518,7 @@ FieldPicture Renderer::fieldPicture() const {
 std::vector<std::string> framePassNames() {
   std::vector<std::string> names;
   Renderer::Parts::listPasses(
-      {false, true, true, true, true, true, true, true, true, true, true, true, true, true, true},
+      {false, true, true, true, true, true, true, true, true, true, true, true, true, true, true, true},
       [&]<typename Pass>(Pass Renderer::Parts::*) { names.push_back(Pass::declare().name); });
   return names;
 }

@@ -28,7 +28,8 @@ struct FrameCounters {
   std::uint32_t occlusionReads = 0; ///< of it, for ambient occlusion
   std::uint32_t mapFragments = 0;   ///< box fragments in shadow maps
   std::uint32_t mapSteps = 0;
-  std::uint32_t insideSteps = 0; ///< trace steps of rays within objects, for translucency
+  std::uint32_t insideSteps = 0;     ///< trace steps of rays within objects, for translucency
+  std::uint32_t reflectionReads = 0; ///< of the world field and of bricks beside it
 };
 
 /// What the GPU holds, by kind; as asked for, without what a driver adds.

@@ -90,6 +90,7 @@ const std::vector<DebugView>& debugViews() {
       {"thickness",
        "metres of the SDF object that the view ray crosses, as heat up to a quarter of the scene's diagonal",
        shared::DEBUG_VIEW_THICKNESS},
+      {"reflection", "what smooth surfaces mirror by --reflections, as bright as it is", shared::DEBUG_VIEW_REFLECTION},
       {"ao", "ambient occlusion by --ao: white open, black hidden", shared::DEBUG_VIEW_AO},
   };
   return views;
@@ -138,6 +139,9 @@ void checkSettings(const RendererSettings& settings) {
     throw BadInput("taa", fmt::format("sharpness {}", settings.taa.sharpness), "is not in [0, 1]");
   checkOcclusionSettings(settings.occlusion);
   checkTranslucencySettings(settings.translucency);
+  checkReflectionSettings(settings.reflections);
+  if (settings.reflections.method == ReflectionMethod::Field && settings.worldField.method != FieldMethod::Exact)
+    throw BadInput("reflections", "field", "needs the exact world field, which knows who is nearest");
   if (settings.occlusion.form != OcclusionForm::Off && settings.worldField.method == FieldMethod::Off)
     throw BadInput("ambient occlusion", occlusionFormName(settings.occlusion.form),
                    "needs a world field, which is off");
@@ -150,6 +154,8 @@ void checkSettings(const RendererSettings& settings) {
     throw BadInput("view", view->name, "shows ambient occlusion, which is off");
   if (view->number == shared::DEBUG_VIEW_THICKNESS && settings.translucency.source == TranslucencySource::Off)
     throw BadInput("view", view->name, "shows what translucency finds, which is off");
+  if (view->number == shared::DEBUG_VIEW_REFLECTION && settings.reflections.method == ReflectionMethod::Off)
+    throw BadInput("view", view->name, "shows reflections, which are off");
 }
 
 } // namespace brickfield

@@ -50,6 +50,7 @@ struct RendererSettings {
   TaaSettings taa;
   OcclusionSettings occlusion; ///< as the shadows: any form makes a world field in each frame
   TranslucencySettings translucency;
+  ReflectionSettings reflections;           ///< as the shadows
   BrdfModel brdf = BrdfModel::CookTorrance; ///< that answers direct light
   FieldSettings worldField;
   FieldSlice fieldSlice;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <tuple>
 
+#include "resident/node_looks.h"
 #include "shared/bindings.h"
 
 namespace brickfield {
@@ -81,7 +82,8 @@ ResidentScene::ResidentScene(const Scene& scene, const SceneFields& fields)
       materials_(scene),
       fieldOfNode_(fields.fieldOfNode),
       lightFieldOfNode_(fields.lightFieldOfNode),
-      triplanarOfNode_(fields.triplanarOfNode) {
+      triplanarOfNode_(fields.triplanarOfNode),
+      scene_(&scene) {
   fieldOfNode_.resize(scene.nodes.size(), -1);
   lightFieldOfNode_.resize(scene.nodes.size(), -1);
   triplanarOfNode_.resize(scene.nodes.size(), 0.0f);
@@ -253,6 +255,15 @@ void ResidentScene::setLighting(const Lighting& lighting) {
   lightCount_ = static_cast<std::uint32_t>(rows.size());
 }
 
+void ResidentScene::bindNodeLooks() const {
+  if (!nodeLooks_) {
+    std::vector<shared::NodeLook> looks = nodeLooksOf(*scene_);
+    if (looks.empty()) looks.emplace_back();
+    nodeLooks_ = Buffer("node_looks", looks);
+  }
+  nodeLooks_.bindStorage(shared::kNodeLookBinding);
+}
+
 void ResidentScene::bindDeform() const {
   meshes_.vertices().bindStorage(shared::kDeformSourceBinding);
   meshes_.vertices().bindStorage(shared::kDeformResultBinding);
@@ -267,7 +278,7 @@ std::size_t ResidentScene::tableBytes() const {
   for (const Buffer* table :
        {&meshDraws_, &drawIndices_, &sdfInstances_, &sdfLooks_, &nodeRows_, &lights_, &jointMatrices_, &morphWeights_})
     sum += table->bytes();
-  return sum;
+  return nodeLooks_ ? sum + nodeLooks_.bytes() : sum;
 }
 
 } // namespace brickfield

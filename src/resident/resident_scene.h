@@ -77,6 +77,8 @@ public:
 
   void bindMeshDraws() const { meshDraws_.bindStorage(shared::kMeshDrawBinding); }
   void bindSdfInstances() const { sdfInstances_.bindStorage(shared::kSdfInstanceBinding); }
+  /// shared::NodeLook of each node; made when it is first asked for.
+  void bindNodeLooks() const;
   void bindSdfLooks() const { sdfLooks_.bindStorage(shared::kSdfLookBinding); }
   /// Of each node, which rows of the instances are its own; behind the SDF objects' follow those of bricks for light.
   void bindNodeRows() const { nodeRows_.bindStorage(shared::kNodeRowBinding); }
@@ -111,6 +113,8 @@ private:
   std::vector<float> weights_;
   std::uint32_t deformedVertices_ = 0;
   Buffer meshDraws_, drawIndices_, sdfInstances_, sdfLooks_, nodeRows_, lights_, jointMatrices_, morphWeights_;
+  const Scene* scene_;
+  mutable Buffer nodeLooks_;
   std::uint32_t sdfInstanceCount_ = 0, meshDrawCount_ = 0, lightCount_ = 0;
 };
 

@@ -41,6 +41,7 @@ TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
     settings.taa.on = settings.view == "motion";
     settings.occlusion.form = settings.view == "steps" ? OcclusionForm::Cones : OcclusionForm::Off;
     settings.translucency.source = settings.view == "steps" ? TranslucencySource::Materials : TranslucencySource::Off;
+    settings.reflections.method = settings.view == "field" ? ReflectionMethod::Field : ReflectionMethod::Off;
     settings.worldField.method = settings.view == "field" ? FieldMethod::Exact : FieldMethod::Rtsdf;
     renderer->setSettings(settings);
     renderer->render(view);

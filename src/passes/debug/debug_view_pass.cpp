@@ -16,7 +16,9 @@ PassDeclaration DebugViewPass::declare() {
            {Resource::Shadow, Access::Sampled},
            {Resource::ShadowReads, Access::Sampled}},
           {{Resource::Picture, Access::ImageStore}},
-          {{Resource::Occlusion, Access::Sampled}, {Resource::Translucency, Access::Sampled}}};
+          {{Resource::Occlusion, Access::Sampled},
+           {Resource::Translucency, Access::Sampled},
+           {Resource::Reflection, Access::Sampled}}};
 }
 
 void DebugViewPass::record(const FrameContext& context) {
@@ -26,6 +28,7 @@ void DebugViewPass::record(const FrameContext& context) {
   context.targets.shadowReads.bind(shared::kShadowReadsUnit);
   if (context.targets.occlusion) context.targets.occlusion.bind(shared::kOcclusionUnit);
   if (context.targets.thickness) context.targets.thickness.bind(shared::kThicknessUnit);
+  if (context.targets.reflection) context.targets.reflection.bind(shared::kReflectionUnit);
   context.scene.bindSdfInstances();
   context.targets.picture.bindImage(0, 0, GL_WRITE_ONLY);
   program_->dispatchOver({context.targets.picture.width(), context.targets.picture.height(), 1});

@@ -18,7 +18,8 @@ PassDeclaration LightingPass::declare() {
           {{Resource::Color, Access::ImageStore}},
           {{Resource::Shadow, Access::Sampled},
            {Resource::Occlusion, Access::Sampled},
-           {Resource::Translucency, Access::Sampled}}};
+           {Resource::Translucency, Access::Sampled},
+           {Resource::Reflection, Access::Sampled}}};
 }
 
 void LightingPass::record(const FrameContext& context) {
@@ -35,6 +36,9 @@ void LightingPass::record(const FrameContext& context) {
   const bool isTranslucent = context.translucency.source != TranslucencySource::Off;
   if (isTranslucent) context.targets.translucent.bind(shared::kTranslucentUnit);
   program_->set("isTranslucent", isTranslucent);
+  const bool isMirrored = context.reflections.method != ReflectionMethod::Off;
+  if (isMirrored) context.targets.reflection.bind(shared::kReflectionUnit);
+  program_->set("isMirrored", isMirrored);
   program_->set("isBlinnPhong", context.brdf == BrdfModel::BlinnPhong);
   context.targets.color.bindImage(0, 0, GL_WRITE_ONLY);
   program_->dispatchOver({context.targets.color.width(), context.targets.color.height(), 1});

@@ -4,6 +4,7 @@
 
 #include "shared/frame_params.h"
 #include "shared/mesh_params.h"
+#include "shared/node_look_params.h"
 #include "shared/sdf_params.h"
 #include "shared/shadow_map_params.h"
 #include "shared/triangle_hierarchy_params.h"
@@ -94,6 +95,11 @@ TEST_F(SharedStructs, RowsOfSdfObjects) {
   expectRows("BoxCommand", "sdf_params.h", sizeof(shared::BoxCommand),
              {MEMBER(BoxCommand, vertices), MEMBER(BoxCommand, instances), MEMBER(BoxCommand, firstVertex),
               MEMBER(BoxCommand, baseInstance)});
+}
+
+TEST_F(SharedStructs, LooksOfNodes) {
+  expectRows("NodeLook", "node_look_params.h", sizeof(shared::NodeLook),
+             {MEMBER(NodeLook, baseColor), MEMBER(NodeLook, emission)});
 }
 
 TEST_F(SharedStructs, RowsOfTheWorldField) {
