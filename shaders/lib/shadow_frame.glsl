@@ -1,10 +1,12 @@
 // The frame of all passes that march shadows: which pixel, which lights, where the shares go, one channel a light. The
-// pass that includes it says how much of a light is seen.
+// pass that includes it says how much of a light is seen. With MAPS_DECIDE shadow maps answer first, and only what they
+// are unsure of is marched.
 //
 // At half resolution every second pixel of every second row is marched first; a pixel between them takes what its
 // neighbours on the same plane say, and is marched itself where there are none or they disagree.
 #include "lib/gbuffer.glsl"
 #include "lib/shadow_cone.glsl"
+#include "lib/shadow_region.glsl"
 #include "shared/sdf_params.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -53,11 +55,11 @@ float coarsenedGrain(vec3 origin, vec3 axis, float grain) {
   return grain;
 }
 
-ShadowCone coneTo(LightRow light, ShadowedPixel pixel, float grain) {
+// Without a grain and an end.
+ShadowCone coneTo(LightRow light, ShadowedPixel pixel) {
   ShadowCone cone;
   cone.origin = pixel.pointEye + frame.eyeAnchored.xyz;
   cone.normal = pixel.normal;
-  cone.grain = grain;
   cone.isRectangle = uint(light.position.w) == LIGHT_RECTANGLE;
   if (uint(light.position.w) == LIGHT_SUN) {
     cone.axis = -light.direction.xyz;
@@ -70,7 +72,6 @@ ShadowCone coneTo(LightRow light, ShadowedPixel pixel, float grain) {
     cone.lightAt = away;
     cone.spread = cone.isRectangle ? radius / away : radius * inversesqrt(max(away * away - radius * radius, 0.01 * radius * radius));
   }
-  cone.grain = coarsenedGrain(cone.origin, cone.axis, grain);
   axesAcross(cone.axis, cone.right, cone.up);
   cone.right *= cone.spread;
   cone.up *= cone.spread;
@@ -78,18 +79,30 @@ ShadowCone coneTo(LightRow light, ShadowedPixel pixel, float grain) {
     cone.right = light.cone.xyz / cone.lightAt;
     cone.up = normalize(cross(light.cone.xyz, light.direction.xyz)) * (light.cone.w / cone.lightAt);
   }
-  float before = cone.isRectangle ? grain : light.intensity.w; // the light begins
-  cone.end = min(max(cone.lightAt - before, 0.0), leavesField(cone.origin, cone.axis));
   return cone;
+}
+
+float marchLight(int number, ShadowCone cone, ivec2 pixel, float grain) {
+  cone.grain = coarsenedGrain(cone.origin, cone.axis, grain);
+  float before = cone.isRectangle ? grain : lights[number].intensity.w; // the light begins
+  cone.end = min(max(cone.lightAt - before, 0.0), leavesField(cone.origin, cone.axis));
+  return visibleShare(cone, pixel, number);
 }
 
 vec4 marchPixel(ivec2 pixel) {
   vec4 visible = vec4(1.0);
   ShadowedPixel surface = shadowedPixel(pixel);
   if (!surface.isSurface) return visible;
-  float grain = grainAt(surface.pointEye + frame.eyeAnchored.xyz);
-  for (int i = 0; i < min(int(frame.size.z), MOST_SHADOWED_LIGHTS); ++i)
-    visible[i] = visibleShare(coneTo(lights[i], surface, grain), pixel, i);
+  float grain = -1.0; // read once something is marched
+  for (int i = 0; i < min(int(frame.size.z), MOST_SHADOWED_LIGHTS); ++i) {
+    ShadowCone cone = coneTo(lights[i], surface);
+#ifdef MAPS_DECIDE
+    visible[i] = shareByMaps(i, cone, surface.pointEye);
+    if (visible[i] != MAP_UNSURE) continue;
+#endif
+    if (grain < 0.0) grain = grainAt(cone.origin);
+    visible[i] = marchLight(i, cone, pixel, grain);
+  }
   return visible;
 }
 

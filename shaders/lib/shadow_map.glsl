@@ -55,11 +55,10 @@ int layerAt(ShadowMapLight light, vec3 pointEye) {
   return -1;
 }
 
-MapPoint mapPointAt(ShadowMapLight light, vec3 pointEye, vec3 normal) {
+MapPoint mapPointIn(int number, vec3 pointEye, vec3 normal) {
   MapPoint point;
-  point.layer = light.layers.y == 0 ? -1 : layerAt(light, pointEye);
-  if (point.layer < 0) return point;
-  ShadowMapLayer layer = shadowMaps.layers[point.layer];
+  point.layer = number;
+  ShadowMapLayer layer = shadowMaps.layers[number];
   bool parallel = layer.depth.z > 0.5;
   vec3 p = eyeOfLayer(point.layer, pointEye);
   float texel = layer.eyeWorld.w * (parallel ? 1.0 : dot(layer.clipFromEye * vec4(p, 1.0), vec4(0, 0, 0, 1)));
@@ -78,6 +77,14 @@ MapPoint mapPointAt(ShadowMapLight light, vec3 pointEye, vec3 normal) {
   point.share = clamp(way, 0.0, 1.0);
   point.texelShare = texel / (layer.depth.y - layer.depth.x);
   return point;
+}
+
+MapPoint mapPointAt(ShadowMapLight light, vec3 pointEye, vec3 normal) {
+  int number = light.layers.y == 0 ? -1 : layerAt(light, pointEye);
+  if (number >= 0) return mapPointIn(number, pointEye, normal);
+  MapPoint none;
+  none.layer = -1;
+  return none;
 }
 
 // Whether a texel's depth lies before the point's surface.

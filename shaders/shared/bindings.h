@@ -65,6 +65,7 @@ SHARED_CONST uint kShadowReadsUnit = 15;
 SHARED_CONST uint kShadowHalfUnit = 12;
 SHARED_CONST uint kShadowMapUnit = 13;
 SHARED_CONST uint kShadowMomentsUnit = 14;
+SHARED_CONST uint kShadowRangeUnit = 31;
 SHARED_CONST uint kMotionUnit = 24;
 SHARED_CONST uint kHistoryUnit = 25;
 SHARED_CONST uint kHistoryDepthUnit = 26;

@@ -11,7 +11,7 @@ struct ShadowMapLayer {
   mat4 clipFromEye; // of the layer's own eye
   mat4 eyeFromClip;
   vec4 eyeWorld; // w: metres a texel; of perspective layers at one metre along the view
-  vec4 depth;    // x: near, y: far distance, metres; z: 1 parallel
+  vec4 depth;    // x: near, y: far distance, metres; z: 1 parallel; w: 1 where all of the scene lies in it
 };
 SHARED_ASSERT_SIZE(ShadowMapLayer, 160)
 
@@ -23,7 +23,7 @@ SHARED_ASSERT_SIZE(ShadowMapLight, 16)
 struct ShadowMapParams {
   ShadowMapLayer layers[MOST_SHADOW_LAYERS];
   ShadowMapLight lights[4];
-  ivec4 size; // x: texels of a side; y: layers
+  ivec4 size; // x: texels of a side; y: layers; z: levels of their ranges
 };
 SHARED_ASSERT_SIZE(ShadowMapParams, 160 * 24 + 5 * 16)
 

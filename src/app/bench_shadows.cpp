@@ -104,6 +104,7 @@ std::vector<BenchedShadows> methodsOf(const ShadowBenchRequest& request) {
 RendererSettings settingsOf(const ShadowBenchRequest& request, const BenchedShadows& method) {
   RendererSettings settings;
   settings.shadows = method.settings;
+  settings.shadowMaps = method.maps;
   settings.worldField.method = method.field;
   settings.worldField.shape = shapeOfSize(request.fieldSize);
   setRtsdfSize(settings.worldField.rtsdf, request.fieldSize);
@@ -205,7 +206,7 @@ private:
         throwIfInterrupted();
         renderer.render(view_);
       }
-      all.push_back(judge(renderer, benched));
+      all.push_back(judge(renderer, method, benched));
       settings.countersOn = false;
       renderer.setSettings(settings);
       timeFrames(renderer, all.back());
@@ -213,10 +214,11 @@ private:
     return all;
   }
 
-  Measured judge(Renderer& renderer, const BenchedLight& benched) const {
+  Measured judge(Renderer& renderer, const BenchedShadows& method, const BenchedLight& benched) const {
     Measured measured;
     measured.layers = renderer.readLayers();
-    std::vector<std::uint32_t> reads, all = renderer.readShadowReads();
+    std::vector<std::uint32_t> reads, all;
+    if (marchesField(method.settings.method)) all = renderer.readShadowReads();
     for (std::size_t i = 0; i < all.size(); ++i)
       if (measured.layers.kind[i] != SurfaceKind::None) reads.push_back(all[i]);
     std::sort(reads.begin(), reads.end());

@@ -27,23 +27,27 @@ void checkView(const std::string& view) {
 
 int render(RenderRequest& request) {
   checkOutputs(outputsOf(request), {request.scene.path, request.light.environment});
+  settleFrameOptions(request);
+  runRender(request);
+  return 0;
+}
+
+} // namespace
+
+void settleFrameOptions(RenderRequest& request) {
   checkCamera(request.camera);
   checkView(request.view);
   settleFieldChoice(request.field, request.view, request.scene.seed);
-  checkFieldShadowChoice(request.fieldShadows, request.shadows == ShadowChoice::Field,
+  checkFieldShadowChoice(request.fieldShadows, marchesField(shadowMethodOf(request.shadows)),
                          request.field.settings.method == FieldMethod::Exact);
   settleOcclusionChoice(request.occlusion, request.view, request.field.settings.method != FieldMethod::Off);
   settleTranslucencyChoice(request.translucency, request.view);
   checkReflectionChoice(request.reflections, request.view, request.field.settings.method == FieldMethod::Exact);
   checkInputPath(request.scene.path, {".gltf", ".glb"});
-  runRender(request);
-  return 0;
 }
 
-void addOptions(CLI::App& command, RenderRequest& request) {
+void addFrameOptions(CLI::App& command, RenderRequest& request) {
   addSceneOptions(command, request.scene);
-  addPath(command, "-o,--output", "The picture: .png (exposed, tone-mapped) or .exr (linear radiance)", request.output)
-      ->required();
   addCameraOptions(command, request.camera);
   addLightOptions(command, request.light);
   addBrdfOption(command, request.brdf);
@@ -72,19 +76,19 @@ void addOptions(CLI::App& command, RenderRequest& request) {
   addTranslucencyOptions(command, request.translucency);
   addReflectionOptions(command, request.reflections);
   addName(command, "--view", "A debug view instead of the picture; see \"brickfield list views\"", request.view);
-  addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", request.layers);
-  addPath(command, "--stats", "Times, counts and memory as .json", request.stats);
   addValue(command, "--device", "EGL device by number, see \"brickfield list devices\"; absent: the first that works",
            [&](auto& flag, auto& text) { request.device = static_cast<int>(parseWhole(flag, text, 0, 255)); })
       ->type_name("N");
 }
 
-} // namespace
-
 void addRenderCommand(CLI::App& program, CommandAction& chosen) {
   CLI::App& command = *program.add_subcommand("render", "Draw a scene to a picture");
   const auto request = std::make_shared<RenderRequest>();
-  addOptions(command, *request);
+  addPath(command, "-o,--output", "The picture: .png (exposed, tone-mapped) or .exr (linear radiance)", request->output)
+      ->required();
+  addFrameOptions(command, *request);
+  addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", request->layers);
+  addPath(command, "--stats", "Times, counts and memory as .json", request->stats);
   command.callback([request, &chosen] { chosen = [request] { return render(*request); }; });
 }
 

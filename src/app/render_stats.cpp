@@ -91,7 +91,7 @@ Json settingsJson(const RenderRun& run) {
   json["resolution"] = valueOr(sdf.resolution, "extras");
   json["triplanar"] = valueOr(sdf.triplanarMetres, "extras");
   json["shadows"] = shadowName(request.shadows);
-  if (request.shadows == ShadowChoice::Field) {
+  if (marchesField(shadowMethodOf(request.shadows))) {
     const ShadowSettings& shadows = request.fieldShadows.settings;
     json["field_shadows"] = {{"estimator", estimatorName(shadows.estimator)},
                              {"rays", shadows.penumbraRays},
@@ -102,8 +102,8 @@ Json settingsJson(const RenderRun& run) {
                                             ? Json("objects")
                                             : Json(request.fieldShadows.brickVoxels)}};
   }
-  if (request.shadows == ShadowChoice::Csm)
-    json["shadow_maps"] = {{"filter", shadowFilterName(request.shadowMaps.filter)}, {"size", request.shadowMaps.size}};
+  if (drawsMaps(shadowMethodOf(request.shadows))) json["shadow_maps"]["size"] = request.shadowMaps.size;
+  if (request.shadows == ShadowChoice::Csm) json["shadow_maps"]["filter"] = shadowFilterName(request.shadowMaps.filter);
   json["taa"] = {{"on", request.taa.on}, {"sharpness", request.taa.sharpness}};
   json["ao"] = occlusionSettingsJson(request.occlusion.settings);
   json["translucency"] = {{"what", translucencyText(request.translucency.settings)},
@@ -204,6 +204,8 @@ Json countsJson(const FrameStats& stats) {
           {"inside_steps", stats.counters.insideSteps},
           {"reflection_reads", stats.counters.reflectionReads},
           {"shadow_map_layers", stats.shadowMapLayers},
+          {"shadow_map_draws", stats.shadowMapDraws},
+          {"shadow_map_boxes", stats.shadowMapBoxes},
           {"shadow_map_fragments", stats.counters.mapFragments},
           {"shadow_map_steps", stats.counters.mapSteps}};
 }

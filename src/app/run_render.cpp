@@ -25,25 +25,6 @@ bool showsFieldError(const RenderRequest& request) {
   return fieldErrorView() && request.view == fieldErrorView()->name;
 }
 
-RendererSettings settingsOf(const RenderRequest& request) {
-  RendererSettings settings;
-  settings.exposureEv = request.exposureEv;
-  settings.view = showsFieldError(request) ? "field" : request.view;
-  settings.worldField = request.field.settings;
-  settings.shadows = request.fieldShadows.settings;
-  settings.shadows.seed = static_cast<std::uint32_t>(request.scene.seed ^ request.scene.seed >> 32) + 1;
-  if (request.shadows == ShadowChoice::Field) settings.shadows.method = ShadowMethod::Field;
-  if (request.shadows == ShadowChoice::Csm) settings.shadows.method = ShadowMethod::Maps;
-  settings.shadowMaps = request.shadowMaps;
-  settings.taa = request.taa;
-  settings.occlusion = request.occlusion.settings;
-  settings.translucency = request.translucency.settings;
-  settings.reflections = request.reflections.settings;
-  settings.brdf = request.brdf;
-  settings.fieldSlice = request.field.slice;
-  return settings;
-}
-
 class Stopwatch {
 public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
@@ -77,38 +58,18 @@ RgbImage displayImage(const FrameLayers& layers, const std::vector<std::uint8_t>
   return image;
 }
 
-// Renders all frames; poses, lights and camera follow the scene's time. Times are taken where statistics are asked for:
-// each frame then ends by waiting for the GPU.
-std::vector<FrameTime> drawFrames(const RenderRequest& request, const Scene& scene, const Pose& lastPose,
-                                  Renderer& renderer) {
+// Renders all frames. Times are taken where statistics are asked for: each frame then ends by waiting for the GPU.
+std::vector<FrameTime> drawFrames(const RenderRequest& request, const LoadedRender& loaded, Renderer& renderer) {
   std::vector<FrameTime> times;
   for (int frame = 0; frame < request.frames; ++frame) {
     throwIfInterrupted();
     const Stopwatch stopwatch;
-    Pose pose = lastPose;
-    const int before = request.frames - 1 - frame;
-    if (before > 0 && request.scene.pose.seconds) {
-      PoseRequest earlier = request.scene.pose;
-      earlier.seconds = *earlier.seconds - before / 60.0; // clamped to the keys by the pose
-      pose = poseScene(scene, earlier);
-    }
-    renderer.setPose(pose);
-    if (frame == 0 || before == 0 || !scene.animations.empty()) renderer.setLighting(makeLighting(pose, request.light));
-    renderer.render(makeView(scene, pose, request.camera));
+    drawFrame(request, loaded, frame, renderer);
     if (request.stats.empty()) continue;
     const double cpuMilliseconds = stopwatch.seconds() * 1e3;
     times.push_back({cpuMilliseconds, renderer.passTimes(), renderer.fieldStats()});
   }
   return times;
-}
-
-// Counting slows the box pass down, so the last frame is drawn once more for it, after all times were taken.
-FrameStats countFrame(const RenderRequest& request, const View& view, Renderer& renderer) {
-  RendererSettings settings = settingsOf(request);
-  settings.countersOn = true;
-  renderer.setSettings(settings);
-  renderer.render(view);
-  return renderer.stats();
 }
 
 } // namespace
@@ -119,45 +80,94 @@ std::vector<OutputPath> outputsOf(const RenderRequest& request) {
           {"--stats", request.stats, {".json"}}};
 }
 
-void runRender(const RenderRequest& request) {
-  RenderRun run;
+RendererSettings rendererSettingsOf(const RenderRequest& request) {
+  RendererSettings settings;
+  settings.exposureEv = request.exposureEv;
+  settings.view = showsFieldError(request) ? "field" : request.view;
+  settings.worldField = request.field.settings;
+  settings.shadows = request.fieldShadows.settings;
+  settings.shadows.seed = static_cast<std::uint32_t>(request.scene.seed ^ request.scene.seed >> 32) + 1;
+  settings.shadows.method = shadowMethodOf(request.shadows);
+  settings.shadowMaps = request.shadowMaps;
+  settings.taa = request.taa;
+  settings.occlusion = request.occlusion.settings;
+  settings.translucency = request.translucency.settings;
+  settings.reflections = request.reflections.settings;
+  settings.brdf = request.brdf;
+  settings.fieldSlice = request.field.slice;
+  return settings;
+}
+
+LoadedRender loadRender(const RenderRequest& request, const std::vector<OutputPath>& outputs) {
+  LoadedRender loaded;
   Stopwatch stopwatch;
-  const Scene scene = importGltf(request.scene.path);
-  checkSceneFiles(scene, outputsOf(request));
-  run.loadSeconds = stopwatch.seconds();
-  const Pose pose = poseScene(scene, request.scene.pose);
-  run.view = makeView(scene, pose, request.camera);            // refuses a bad camera before the bake
-  const Lighting lighting = makeLighting(pose, request.light); // and bad lights
-  sdfNodes(scene, request.scene.sdf, request.scene.threads);
-  const std::unique_ptr<Context> context = Context::createHeadless(request.device);
+  loaded.scene = importGltf(request.scene.path);
+  checkSceneFiles(loaded.scene, outputs);
+  loaded.loadSeconds = stopwatch.seconds();
+  loaded.pose = poseScene(loaded.scene, request.scene.pose);
+  loaded.view = makeView(loaded.scene, loaded.pose, request.camera); // refuses a bad camera before the bake
+  loaded.lighting = makeLighting(loaded.pose, request.light);        // and bad lights
+  sdfNodes(loaded.scene, request.scene.sdf, request.scene.threads);
+  loaded.context = Context::createHeadless(request.device);
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (std::max(request.camera.sizePixels.x, request.camera.sizePixels.y) > static_cast<std::uint32_t>(largest))
     throw BadInput("--size", "", "larger than this device's pictures, " + std::to_string(largest) + " pixels a side");
-  printWarnings(scene);
+  printWarnings(loaded.scene);
   stopwatch = {};
-  const SceneFieldsResult baked = bakeFields(request, scene, pose);
-  run.bakeSeconds = stopwatch.seconds();
-  run.baked = baked.baked;
+  loaded.baked = bakeFields(request, loaded.scene, loaded.pose);
+  loaded.bakeSeconds = stopwatch.seconds();
+  return loaded;
+}
 
-  stopwatch = {};
-  Renderer renderer(context->info());
-  renderer.setScene(scene, baked.fields);
-  renderer.setSettings(settingsOf(request));
-  run.frames = drawFrames(request, scene, pose, renderer);
+// Poses, lights and camera follow the scene's time.
+void drawFrame(const RenderRequest& request, const LoadedRender& loaded, int frame, Renderer& renderer) {
+  Pose pose = loaded.pose;
+  const int before = request.frames - 1 - frame;
+  if (before > 0 && request.scene.pose.seconds) {
+    PoseRequest earlier = request.scene.pose;
+    earlier.seconds = *earlier.seconds - before / 60.0; // clamped to the keys by the pose
+    pose = poseScene(loaded.scene, earlier);
+  }
+  renderer.setPose(pose);
+  if (frame == 0 || before == 0 || !loaded.scene.animations.empty())
+    renderer.setLighting(makeLighting(pose, request.light));
+  renderer.render(makeView(loaded.scene, pose, request.camera));
+}
+
+FrameStats countFrame(const RenderRequest& request, const View& view, Renderer& renderer) {
+  RendererSettings settings = rendererSettingsOf(request);
+  settings.countersOn = true;
+  renderer.setSettings(settings);
+  renderer.render(view);
+  return renderer.stats();
+}
+
+void runRender(const RenderRequest& request) {
+  const LoadedRender loaded = loadRender(request, outputsOf(request));
+  const Scene& scene = loaded.scene;
+  RenderRun run;
+  run.loadSeconds = loaded.loadSeconds, run.bakeSeconds = loaded.bakeSeconds;
+  run.view = loaded.view;
+  run.baked = loaded.baked.baked;
+  const Stopwatch stopwatch;
+  Renderer renderer(loaded.context->info());
+  renderer.setScene(scene, loaded.baked.fields);
+  renderer.setSettings(rendererSettingsOf(request));
+  run.frames = drawFrames(request, loaded, renderer);
   const FrameLayers layers = renderer.readLayers();
   run.drawSeconds = stopwatch.seconds();
   RgbImage picture = displayImage(layers, renderer.readPicture());
   if (showsFieldError(request))
-    picture = fieldErrorPicture(renderer.readWorldField(), renderer.fieldPicture(), layers.size, scene, pose);
+    picture = fieldErrorPicture(renderer.readWorldField(), renderer.fieldPicture(), layers.size, scene, loaded.pose);
   if (!request.stats.empty()) run.last = countFrame(request, run.view, renderer);
-  if (const std::vector<std::string> errors = context->takeGlErrors(); !errors.empty())
+  if (const std::vector<std::string> errors = loaded.context->takeGlErrors(); !errors.empty())
     throw Failure("OpenGL: " + errors.front());
   throwIfInterrupted();
   if (!request.layers.empty()) writeLayers(request.layers, layers);
   if (!request.stats.empty()) {
-    run.request = &request, run.scene = &scene, run.pose = &pose;
-    run.lighting = &lighting, run.fields = &baked.fields, run.device = &context->info();
+    run.request = &request, run.scene = &scene, run.pose = &loaded.pose;
+    run.lighting = &loaded.lighting, run.fields = &loaded.baked.fields, run.device = &loaded.context->info();
     writeFile(request.stats, renderStatsJson(run).dump(2) + "\n");
   }
   // The same radiance, so that an EXR is linear and whole; a PNG is the frame's own picture or view.

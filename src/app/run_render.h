@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "app/field_choice.h"
@@ -10,8 +11,11 @@
 #include "app/occlusion_choice.h"
 #include "app/options.h"
 #include "app/reflection_choice.h"
+#include "app/scene_fields.h"
 #include "app/shadow_choice.h"
 #include "app/translucency_choice.h"
+#include "gpu/context.h"
+#include "renderer/renderer.h"
 
 namespace brickfield {
 
@@ -41,6 +45,28 @@ struct RenderRequest {
 };
 
 std::vector<OutputPath> outputsOf(const RenderRequest& request);
+
+/// A scene with all that drawing it needs, on a context of its own that is current.
+struct LoadedRender {
+  Scene scene;
+  Pose pose; ///< of the last frame, as what follows
+  View view;
+  Lighting lighting;
+  std::unique_ptr<Context> context;
+  SceneFieldsResult baked;
+  double loadSeconds = 0, bakeSeconds = 0;
+};
+/// Everything that may be refused is refused before the bake.
+/// error  BadInput, Failure, Cancelled
+LoadedRender loadRender(const RenderRequest& request, const std::vector<OutputPath>& outputs);
+
+RendererSettings rendererSettingsOf(const RenderRequest& request);
+
+/// Sets pose and light of one of the request's frames, 0 to frames - 1, and draws it.
+void drawFrame(const RenderRequest& request, const LoadedRender& loaded, int frame, Renderer& renderer);
+
+/// Counts of a frame like the last one. Counting slows drawing down, so it is drawn once more for it.
+FrameStats countFrame(const RenderRequest& request, const View& view, Renderer& renderer);
 
 /// Renders and writes everything that is asked for, the picture last.
 /// error  BadInput, Failure, Cancelled; then nothing is half-written

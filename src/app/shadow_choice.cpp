@@ -31,12 +31,14 @@ void addRenderShadows(CLI::App& command, ShadowChoice& choice) {
   addValue(
       command, "--shadows",
       "Shadows of the first four lights: field (soft, by marching the world field), csm (shadow maps: four cascades "
-      "for suns, one map for spots, six for all others), or none, the default",
+      "for suns, one map for spots, six for all others), csm+field (marched where the maps do not know, and for suns "
+      "up to "
+      "a degree by the maps alone), or none, the default",
       [&](auto& flag, auto& text) {
-        const bool none = isNone(flag, text);
-        if (!none && text != "field" && text != "csm")
-          throw BadInput(flag, fmt::format("\"{}\"", text), "is not drawn by this version; field, csm and none are");
-        choice = none ? ShadowChoice::None : text == "csm" ? ShadowChoice::Csm : ShadowChoice::Field;
+        if (isNone(flag, text))
+          choice = ShadowChoice::None;
+        else
+          choice = text == "csm" ? ShadowChoice::Csm : text == "field" ? ShadowChoice::Field : ShadowChoice::CsmField;
       })
       ->type_name("KIND");
 }
@@ -81,10 +83,18 @@ const char* shadowName(ShadowChoice choice) {
     return "field";
   case ShadowChoice::Csm:
     return "csm";
+  case ShadowChoice::CsmField:
+    return "csm+field";
   case ShadowChoice::Traced:
     return "traced";
   }
   return "unknown";
+}
+
+ShadowMethod shadowMethodOf(ShadowChoice choice) {
+  if (choice == ShadowChoice::Field) return ShadowMethod::Field;
+  if (choice == ShadowChoice::Csm) return ShadowMethod::Maps;
+  return choice == ShadowChoice::CsmField ? ShadowMethod::MapsAndField : ShadowMethod::None;
 }
 
 } // namespace brickfield

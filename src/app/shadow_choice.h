@@ -4,6 +4,7 @@
 #include <string>
 
 #include "passes/light/shadow_maps.h"
+#include "passes/light/shadow_settings.h"
 
 namespace CLI {
 class App;
@@ -12,11 +13,11 @@ class App;
 namespace brickfield {
 
 /// What `--shadows` can be told. Traced from whole lights, Hard from their centres: by the reference. Field: by the
-/// renderer, marching the world field. Csm: by shadow maps. The union of both is refused until the renderer has it.
-enum class ShadowChoice { Traced, Hard, Field, Csm, None };
+/// renderer, marching the world field. Csm: by shadow maps. CsmField: marched where the maps are unsure.
+enum class ShadowChoice { Traced, Hard, Field, Csm, CsmField, None };
 
-/// --shadows of render: field, csm or none, which is its default.
-/// error  BadInput at parsing: csm+field, which the renderer does not have yet; any other word
+/// --shadows of render: field, csm, csm+field or none, which is its default.
+/// error  BadInput at parsing: any other word
 void addRenderShadows(CLI::App& command, ShadowChoice& choice);
 /// --shadow-filter --shadow-size
 void addShadowMapOptions(CLI::App& command, ShadowMapSettings& settings);
@@ -26,7 +27,9 @@ const char* shadowFilterName(ShadowFilter filter);
 /// traces exact ones from whole lights; these are its default.
 void addReferenceShadows(CLI::App& command, ShadowChoice& choice);
 
-/// "none", "hard", "field", "csm" or "traced"
+/// As it is told, or "traced".
 const char* shadowName(ShadowChoice choice);
+/// The renderer's method; None for what the reference alone knows.
+ShadowMethod shadowMethodOf(ShadowChoice choice);
 
 } // namespace brickfield

@@ -15,6 +15,12 @@ const std::vector<BenchedShadows>& benchedShadows() {
                          bool wantsBricks = false) {
       made.push_back({name, meaning, field, field == FieldMethod::Rtsdf ? 2 : 1, wantsBricks, settings});
     };
+    const auto addMaps = [&](const char* name, const char* meaning, ShadowFilter filter) {
+      ShadowSettings settings;
+      settings.method = ShadowMethod::Maps;
+      add(name, meaning, FieldMethod::Off, settings);
+      made.back().maps.filter = filter;
+    };
     const auto with = [&](ShadowEstimator estimator, int count) {
       ShadowSettings settings = rays;
       settings.estimator = estimator;
@@ -30,6 +36,12 @@ const std::vector<BenchedShadows>& benchedShadows() {
     add("field-4", "4 rays", exact, with(ShadowEstimator::Rays, 4), true);
     add("field-alone", "8 rays, the world field alone", exact, rays);
     add("field-alone-half", "the same at half resolution", exact, half);
+    ShadowSettings both = rays;
+    both.method = ShadowMethod::MapsAndField;
+    add("csm+field", "shadow maps of 2048 texels, then as field where they are unsure", exact, both, true);
+    add("csm+field-alone", "the same without bricks", exact, both);
+    addMaps("csm-pcf", "shadow maps of 2048 texels, three of them filtered", ShadowFilter::Pcf);
+    addMaps("csm-evsm", "the same, exponential variances blurred over 15 texels", ShadowFilter::Evsm);
     add("rtsdf", "RTSDF's estimator on RTSDF's field, without its bias", FieldMethod::Rtsdf,
         with(ShadowEstimator::Rtsdf, 1));
     add("rtsdf-exact", "RTSDF's estimator on the exact field", exact, with(ShadowEstimator::Rtsdf, 1));

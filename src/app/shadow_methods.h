@@ -16,6 +16,7 @@ struct BenchedShadows {
   int fieldFrames = 1;                  ///< that are drawn before anything is measured, where the field grows
   bool wantsBricks = false;             ///< of meshes too
   ShadowSettings settings;
+  ShadowMapSettings maps{}; ///< where the method draws some
 };
 const std::vector<BenchedShadows>& benchedShadows();
 

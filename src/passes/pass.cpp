@@ -33,6 +33,8 @@ const char* resourceName(Resource resource) {
     return "shadow_map";
   case Resource::ShadowMoments:
     return "shadow_moments";
+  case Resource::ShadowRange:
+    return "shadow_range";
   case Resource::OcclusionTraced:
     return "occlusion_traced";
   case Resource::Occlusion:

@@ -24,6 +24,7 @@ enum class Resource : std::uint8_t {
   ShadowReads, ///< what they cost
   ShadowMap,
   ShadowMoments,   ///< blurred, of the shadow maps
+  ShadowRange,     ///< their nearest and farthest depths over squares
   OcclusionTraced, ///< open shares of the hemisphere at fewer pixels
   Occlusion,       ///< at all of them
   Translucency,    ///< light through SDF objects, and their thickness

@@ -26,6 +26,7 @@
 #include "passes/light/shadow_map_pass.h"
 #include "passes/light/shadow_maps.h"
 #include "passes/light/shadow_moments_pass.h"
+#include "passes/light/shadow_range_pass.h"
 #include "passes/light/translucency_pass.h"
 #include "passes/post/taa_pass.h"
 #include "passes/post/taa_sharpen_pass.h"
@@ -40,6 +41,7 @@
 #include "passes/world_field/world_triangles_pass.h"
 #include "renderer/frame_plan.h"
 #include "renderer/frame_readback.h"
+#include "resident/mesh_boxes.h"
 #include "shared/bindings.h"
 #include "shared/sdf_params.h"
 
@@ -79,6 +81,7 @@ void recordPass(OcclusionSpreadPass& pass, const FrameContext& frame) { pass.rec
 void recordPass(FieldViewPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(ShadowMapPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(ShadowMomentsPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(ShadowRangePass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(MapShadowPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(ShadowMapViewPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(TaaPass& pass, const FrameContext& frame) { pass.record(frame); }
@@ -107,8 +110,9 @@ constexpr bool isLate = requires(Pass pass, ShaderLibrary& shaders) {
 /// What decides which passes a frame has.
 struct FrameShape {
   bool boxesFirst = false, hasTriplanar = false;
-  bool hasExactField = false, hasRtsdfField = false, hasShadows = false, hasOcclusion = false;
-  bool hasTranslucency = false, hasReflections = false, hasShadowMaps = false, hasShadowMoments = false, hasTaa = false;
+  bool hasExactField = false, hasRtsdfField = false, hasFieldShadows = false, hasOcclusion = false;
+  bool hasTranslucency = false, hasReflections = false, hasShadowMaps = false, hasShadowMoments = false, hasShadowRanges = false;
+  bool mapsAnswer = false, hasTaa = false;
   bool showsPicture = false, showsDebugView = false, showsFieldView = false, showsShadowMaps = false, showsTaa = false;
 };
 
@@ -150,6 +154,7 @@ struct Renderer::Parts {
   LatePass<FieldViewPass> fieldView;
   LatePass<ShadowMapPass> shadowMap;
   LatePass<ShadowMomentsPass> shadowMoments;
+  LatePass<ShadowRangePass> shadowRange;
   LatePass<MapShadowPass> mapShadow;
   LatePass<ShadowMapViewPass> shadowMapView;
   LatePass<TaaPass> taa;
@@ -166,6 +171,7 @@ struct Renderer::Parts {
   SceneFields fieldOfNode;                ///< without the fields: which nodes are SDF objects
   std::unique_ptr<FieldKeeper> field;     ///< null until a frame reads the world field
   std::unique_ptr<ShadowMaps> shadowMaps; ///< null until a frame asks for them
+  std::unique_ptr<MeshBoxes> meshBoxes;   ///< the same
   std::vector<PosedLight> lights;
   std::unique_ptr<Temporal> temporal; ///< null: no temporal antialiasing
   View previousView;                  ///< of the last frame, where temporal has a history
@@ -218,7 +224,7 @@ Renderer::Parts::Parts(const ContextInfo& info)
 bool Renderer::Parts::readsField() const {
   if (settings.worldField.method == FieldMethod::Off) return false;
   const DebugView* shown = findView(settings.view);
-  return settings.worldField.always || settings.shadows.method == ShadowMethod::Field ||
+  return settings.worldField.always || marchesField(settings.shadows.method) ||
          settings.occlusion.form != OcclusionForm::Off || settings.reflections.method != ReflectionMethod::Off ||
          (shown && shown->readsField);
 }
@@ -229,8 +235,13 @@ const FieldFrame& Renderer::Parts::prepareField() {
 }
 
 void Renderer::Parts::prepareShadowMaps(const shared::FrameParams& params) {
-  if (!shadowMaps) shadowMaps = std::make_unique<ShadowMaps>(settings.shadowMaps);
-  shadowMaps->prepare(lights, view, pose.boundsWorld, params, scene->sdfInstanceCount());
+  const bool hasRanges = settings.shadows.method == ShadowMethod::MapsAndField;
+  if (!shadowMaps || !(shadowMaps->settings() == settings.shadowMaps) || shadowMaps->hasRanges() != hasRanges)
+    shadowMaps = std::make_unique<ShadowMaps>(settings.shadowMaps, hasRanges);
+  if (!meshBoxes) meshBoxes = std::make_unique<MeshBoxes>(*source);
+  const glm::dvec3 anchor = pose.boundsWorld.isEmpty() ? glm::dvec3(0) : glm::dvec3(pose.boundsWorld.center());
+  shadowMaps->prepare(lights, view, pose.boundsWorld, params, scene->sdfInstanceCount(),
+                      {scene->batches(), meshBoxes->anchored(scene->meshPlaces(), pose, anchor), anchor});
 }
 
 // A jitter of its own for each frame; what the frame before left, as long as pictures are of one size.
@@ -282,8 +293,9 @@ void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
   if (shape.hasTriplanar) take(&Parts::triplanar); // the last word about surfaces
   if (shape.hasShadowMaps) take(&Parts::shadowMap);
   if (shape.hasShadowMoments) take(&Parts::shadowMoments);
-  if (shape.hasShadowMaps) take(&Parts::mapShadow);
-  if (shape.hasShadows) take(&Parts::fieldShadow);
+  if (shape.hasShadowRanges) take(&Parts::shadowRange);
+  if (shape.mapsAnswer) take(&Parts::mapShadow);
+  if (shape.hasFieldShadows) take(&Parts::fieldShadow); // with ranges where they leave it open
   if (shape.hasOcclusion) {
     take(&Parts::fieldOcclusion);
     take(&Parts::occlusionSpread); // over all pixels
@@ -312,22 +324,25 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
   const DebugView* shown = findView(settings.view);
   const bool readsField = shown && shown->readsField, readsMaps = shown && shown->readsShadowMaps;
   const bool readsTemporal = shown && shown->readsTemporal;
-  const FrameShape shape{settings.drawOrder == DrawOrder::BoxesFirstAllReversed,
-                         !scene->triplanarMaterials().empty(),
-                         context.field && context.field->exact,
-                         context.field && context.field->rtsdf,
-                         context.shadows && context.shadows->method == ShadowMethod::Field,
-                         context.occlusion.form != OcclusionForm::Off,
-                         context.translucency.source != TranslucencySource::Off,
-                         context.reflections.method != ReflectionMethod::Off,
-                         context.shadowMaps != nullptr,
-                         context.shadowMaps && settings.shadowMaps.filter == ShadowFilter::Evsm,
-                         context.temporal != nullptr,
-                         !shown,
-                         shown && !readsField && !readsMaps && !readsTemporal,
-                         readsField,
-                         readsMaps,
-                         readsTemporal};
+  const bool hasMaps = context.shadowMaps != nullptr, hasRanges = hasMaps && context.shadowMaps->hasRanges();
+  const FrameShape shape{.boxesFirst = settings.drawOrder == DrawOrder::BoxesFirstAllReversed,
+                         .hasTriplanar = !scene->triplanarMaterials().empty(),
+                         .hasExactField = context.field && context.field->exact,
+                         .hasRtsdfField = context.field && context.field->rtsdf,
+                         .hasFieldShadows = marchesField(settings.shadows.method),
+                         .hasOcclusion = context.occlusion.form != OcclusionForm::Off,
+                         .hasTranslucency = context.translucency.source != TranslucencySource::Off,
+                         .hasReflections = context.reflections.method != ReflectionMethod::Off,
+                         .hasShadowMaps = hasMaps,
+                         .hasShadowMoments = hasMaps && !hasRanges && settings.shadowMaps.filter == ShadowFilter::Evsm,
+                         .hasShadowRanges = hasRanges,
+                         .mapsAnswer = hasMaps && !hasRanges,
+                         .hasTaa = context.temporal != nullptr,
+                         .showsPicture = !shown,
+                         .showsDebugView = shown && !readsField && !readsMaps && !readsTemporal,
+                         .showsFieldView = readsField,
+                         .showsShadowMaps = readsMaps,
+                         .showsTaa = readsTemporal};
   std::vector<PlannedPass> passes;
   listPasses(shape, [&](auto member) {
     auto& pass = this->*member;
@@ -375,6 +390,7 @@ void Renderer::setScene(const Scene& scene, const SceneFields& fields) {
   parts_->field.reset();
   parts_->isFieldInFrame = false;
   parts_->temporal.reset();
+  parts_->meshBoxes.reset();
   parts_->scene.reset();
   parts_->scene = std::make_unique<ResidentScene>(scene, fields);
   parts_->source = &scene;
@@ -405,7 +421,6 @@ void Renderer::setSettings(const RendererSettings& settings) {
     parts_->field.reset();
     parts_->isFieldInFrame = false;
   }
-  if (!(settings.shadowMaps == parts_->settings.shadowMaps)) parts_->shadowMaps.reset();
   parts_->settings = settings;
 }
 
@@ -429,7 +444,7 @@ void Renderer::render(const View& view) {
   const FieldFrame* field = parts.isFieldInFrame ? &parts.prepareField() : nullptr;
   const shared::FrameParams params = parts.fillParams();
   parts.frameParams.uploadValue(params);
-  if (parts.settings.shadows.method == ShadowMethod::Maps) parts.prepareShadowMaps(params);
+  if (drawsMaps(parts.settings.shadows.method)) parts.prepareShadowMaps(params);
   parts.frameParams.bindUniform(shared::kFrameUniformBinding);
   parts.counters.clear(0);
 
@@ -446,7 +461,7 @@ void Renderer::render(const View& view) {
                              parts.settings.shadows.method != ShadowMethod::None ? &parts.settings.shadows : nullptr,
                              parts.settings.view == "shadow-reads",
                              &parts.frameParams,
-                             parts.settings.shadows.method == ShadowMethod::Maps ? parts.shadowMaps.get() : nullptr,
+                             drawsMaps(parts.settings.shadows.method) ? parts.shadowMaps.get() : nullptr,
                              parts.temporal.get(),
                              parts.settings.occlusion,
                              parts.settings.brdf,
@@ -479,8 +494,12 @@ FrameStats Renderer::stats() {
                     counts[shared::COUNTER_SHADOW_READS],   counts[shared::COUNTER_OCCLUSION_READS],
                     counts[shared::COUNTER_MAP_FRAGMENTS],  counts[shared::COUNTER_MAP_STEPS],
                     counts[shared::COUNTER_INSIDE_STEPS],   counts[shared::COUNTER_REFLECTION_READS]};
-  if (parts.settings.shadows.method == ShadowMethod::Maps && parts.shadowMaps)
+  if (drawsMaps(parts.settings.shadows.method) && parts.shadowMaps) {
     stats.shadowMapLayers = static_cast<std::uint32_t>(parts.shadowMaps->layerCount());
+    stats.shadowMapDraws = parts.shadowMaps->drawCount();
+    const bool hasBoxes = parts.settings.countersOn && parts.scene->sdfInstanceCount() > 0;
+    if (hasBoxes) stats.shadowMapBoxes = parts.shadowMaps->boxCount();
+  }
   stats.sdfInstances = parts.scene->sdfInstanceCount();
   if (stats.sdfInstances > 0) {
     const std::vector<shared::BoxCommand> commands = parts.visible.commands().read<shared::BoxCommand>();
@@ -517,9 +536,25 @@ FieldPicture Renderer::fieldPicture() const {
 
 std::vector<std::string> framePassNames() {
   std::vector<std::string> names;
-  Renderer::Parts::listPasses(
-      {false, true, true, true, true, true, true, true, true, true, true, true, true, true, true, true},
-      [&]<typename Pass>(Pass Renderer::Parts::*) { names.push_back(Pass::declare().name); });
+  Renderer::Parts::listPasses({.boxesFirst = false,
+                               .hasTriplanar = true,
+                               .hasExactField = true,
+                               .hasRtsdfField = true,
+                               .hasFieldShadows = true,
+                               .hasOcclusion = true,
+                               .hasTranslucency = true,
+                               .hasReflections = true,
+                               .hasShadowMaps = true,
+                               .hasShadowMoments = true,
+                               .hasShadowRanges = true,
+                               .mapsAnswer = true,
+                               .hasTaa = true,
+                               .showsPicture = true,
+                               .showsDebugView = true,
+                               .showsFieldView = true,
+                               .showsShadowMaps = true,
+                               .showsTaa = true},
+                              [&]<typename Pass>(Pass Renderer::Parts::*) { names.push_back(Pass::declare().name); });
   return names;
 }
 
@@ -561,6 +596,15 @@ std::vector<float> Renderer::readShadowMap(int layer) const {
     throw Failure("renderer: no frame has made this shadow map");
   const Texture& depths = parts_->shadowMaps->depths();
   return depths.read<float>(0, {0, 0, layer}, {depths.width(), depths.height(), 1});
+}
+
+std::vector<glm::vec2> Renderer::readShadowRange(int layer, int level) const {
+  const ShadowMaps* maps = parts_->shadowMaps.get();
+  if (layer < 0 || level < 0 || !maps || !maps->hasRanges() || layer >= maps->layerCount() ||
+      level >= maps->rangeLevels())
+    throw Failure("renderer: no frame has made this shadow range");
+  const glm::ivec2 box = maps->rangeBox(level);
+  return maps->ranges().read<glm::vec2>(0, {0, box.x, layer}, {box.y, box.y, 1});
 }
 
 const std::vector<ShadowView>& Renderer::shadowViews() const {

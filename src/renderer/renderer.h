@@ -52,6 +52,8 @@ struct FrameStats {
   std::uint32_t meshDraws = 0;
   std::uint32_t bricks = 0;
   std::uint32_t shadowMapLayers = 0;
+  std::uint32_t shadowMapDraws = 0; ///< of meshes, in all layers
+  std::uint32_t shadowMapBoxes = 0; ///< of SDF objects; zero where counters are off
   GpuBytes bytes;
   FieldStats field;
 };
@@ -103,6 +105,9 @@ public:
   /// Depths of a layer of the last frame's shadow maps, reverse Z; rows from the bottom, as the views count.
   /// error Failure: there is no such layer
   std::vector<float> readShadowMap(int layer) const;
+  /// Of squares of its texels the depths nearest to the light and farthest; level 0: of two by two, rows likewise.
+  /// error Failure: there is no such layer or level, or the shadows were not of maps and field
+  std::vector<glm::vec2> readShadowRange(int layer, int level) const;
   /// The views that they were drawn from, a layer each.
   const std::vector<ShadowView>& shadowViews() const;
 

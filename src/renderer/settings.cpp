@@ -117,9 +117,9 @@ void checkShadowView(const DebugView& view, const RendererSettings& settings) {
   const ShadowMethod method = settings.shadows.method;
   if (view.needsShadows && method == ShadowMethod::None)
     throw BadInput("view", settings.view, "shows shadows, of which there are none; --shadows field makes some");
-  if (view.number == shared::DEBUG_VIEW_SHADOW_READS && method != ShadowMethod::Field)
+  if (view.number == shared::DEBUG_VIEW_SHADOW_READS && !marchesField(method))
     throw BadInput("view", settings.view, "shows what --shadows field reads");
-  if (view.readsShadowMaps && method != ShadowMethod::Maps)
+  if (view.readsShadowMaps && !drawsMaps(method))
     throw BadInput("view", settings.view, "shows shadow maps, which --shadows csm makes");
   if (view.readsTemporal && !settings.taa.on) throw BadInput("view", settings.view, "shows what --taa on keeps");
 }
@@ -129,7 +129,7 @@ void checkShadowView(const DebugView& view, const RendererSettings& settings) {
 void checkSettings(const RendererSettings& settings) {
   checkShape(settings.worldField.shape);
   checkRtsdfSettings(settings.worldField.rtsdf);
-  if (settings.shadows.method == ShadowMethod::Field && settings.worldField.method == FieldMethod::Off)
+  if (marchesField(settings.shadows.method) && settings.worldField.method == FieldMethod::Off)
     throw BadInput("shadows", "field", "needs a world field, which is off");
   checkShadows(settings.shadows);
   if (settings.shadowMaps.size < kLeastShadowTexels || settings.shadowMaps.size > kMostShadowTexels)

@@ -45,8 +45,8 @@ struct RendererSettings {
   DrawOrder drawOrder = DrawOrder::MeshesFirst;
   bool countersOn = false;      ///< counts fragments, steps and brick reads; slower
   std::string view;             ///< one of debugViews(); empty: the lit picture
-  ShadowSettings shadows;       ///< Field makes a world field in each frame
-  ShadowMapSettings shadowMaps; ///< where the method is of maps
+  ShadowSettings shadows;       ///< those that march make a world field in each frame
+  ShadowMapSettings shadowMaps; ///< where the method draws maps
   TaaSettings taa;
   OcclusionSettings occlusion; ///< as the shadows: any form makes a world field in each frame
   TranslucencySettings translucency;

@@ -70,13 +70,14 @@ std::vector<ShadowView> makeCascades(glm::vec3 directionWorld, const View& camer
     const Sphere sphere = sphereOfSlice(camera, ends[i], ends[i + 1]);
     glm::dvec2 center(glm::dot(sphere.center, axes[0]), glm::dot(sphere.center, axes[1]));
     double half = sphere.radius;
-    if (half >= sceneHalf) center = {x.middle(), y.middle()}, half = sceneHalf;
+    const bool holdsScene = half >= sceneHalf;
+    if (holdsScene) center = {x.middle(), y.middle()}, half = sceneHalf;
     half = withMargin(half, texels);
     const double texel = 2.0 * half / texels;
     center = glm::floor(center / texel + 0.5) * texel;
     const glm::dvec3 eye = axes * glm::dvec3(center, top);
     views.push_back({makeParallelView(eye, direction, half, 0.0, top - bottom, size), static_cast<float>(top - bottom),
-                     static_cast<float>(texel)});
+                     static_cast<float>(texel), holdsScene});
   }
   return views;
 }

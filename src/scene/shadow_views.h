@@ -24,6 +24,7 @@ struct ShadowView {
   View view;             ///< square; a sun's is parallel, its near plane above and its far plane below all of the scene
   float farDistance = 0; ///< metres from the eye along the view to the farthest of the scene
   float texelSpan = 0;   ///< metres a texel, of perspective views at one metre from the eye
+  bool holdsScene = false; ///< a sun's, whose square holds everything
 };
 
 /// Where the camera's depth is cut: 0, then the ends of the cascades. Between the nearest and the farthest of the

@@ -34,10 +34,11 @@ TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
   settings.worldField.shape = {1, 16, 0, false};
   settings.worldField.rtsdf.coarseSize = settings.worldField.rtsdf.fineSize = 16;
   settings.shadowMaps = {ShadowFilter::Evsm, kLeastShadowTexels};
-  for (const char* shown : {"", "steps", "field", "field-surface", "shadow-map", "motion"}) {
+  for (const char* shown : {"", "steps", "albedo", "field", "field-surface", "shadow-map", "motion"}) {
     settings.view = shown;
     settings.shadows.method = settings.view.empty() ? ShadowMethod::Field : ShadowMethod::None;
     if (settings.view == "shadow-map") settings.shadows.method = ShadowMethod::Maps;
+    if (settings.view == "albedo") settings.shadows.method = ShadowMethod::MapsAndField;
     settings.taa.on = settings.view == "motion";
     settings.occlusion.form = settings.view == "steps" ? OcclusionForm::Cones : OcclusionForm::Off;
     settings.translucency.source = settings.view == "steps" ? TranslucencySource::Materials : TranslucencySource::Off;

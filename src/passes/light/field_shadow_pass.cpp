@@ -3,6 +3,7 @@
 #include "passes/light/field_shadow_pass.h"
 
 #include "gpu/gl.h"
+#include "passes/light/shadow_maps.h"
 #include "passes/world_field/field_frame.h"
 
 namespace brickfield {
@@ -19,7 +20,19 @@ PassDeclaration FieldShadowPass::declare() {
            {Resource::WorldField, Access::StorageRead}},
           {{Resource::Shadow, Access::ImageStore},
            {Resource::ShadowReads, Access::ImageStore},
-           {Resource::Counters, Access::StorageWrite}}};
+           {Resource::Counters, Access::StorageWrite}},
+          {{Resource::ShadowMap, Access::Sampled}, {Resource::ShadowRange, Access::Sampled}}};
+}
+
+std::shared_ptr<Program> FieldShadowPass::load(Source source, bool mapsDecide, bool counts) const {
+  constexpr std::array<const char*, kSources> kNames{"field_shadow", "brick_shadow", "published_shadow"};
+  constexpr std::array<const char*, kSources> kStages{"passes/field_shadow.comp.glsl", "passes/brick_shadow.comp.glsl",
+                                                      "passes/published_shadow.comp.glsl"};
+  std::string label = kNames[source];
+  std::map<std::string, std::string> defines;
+  if (mapsDecide) label += "_maps", defines["MAPS_DECIDE"] = "1";
+  if (counts) label += "_counting", defines["COUNTERS_ON"] = "1";
+  return shaders_->load({label, {{GL_COMPUTE_SHADER, kStages[source]}}, defines, {}});
 }
 
 Program& FieldShadowPass::choose(const FrameContext& context, bool counts) {
@@ -27,15 +40,9 @@ Program& FieldShadowPass::choose(const FrameContext& context, bool counts) {
   const bool isOurs = settings.estimator == ShadowEstimator::Rays;
   const bool hasBricks = settings.nearBricks && context.field->exact && context.scene.hasBricks();
   const Source source = !isOurs ? kPublished : hasBricks ? kBricks : kField;
-  std::shared_ptr<Program>& program = programs_[source][counts];
-  const auto load = [&](const char* label, const char* stage) {
-    if (counts) return shaders_->load({label, {{GL_COMPUTE_SHADER, stage}}, {{"COUNTERS_ON", "1"}}, {}});
-    return shaders_->load({label, {{GL_COMPUTE_SHADER, stage}}, {}, {}});
-  };
-  if (program) return *program;
-  if (source == kField) program = load("field_shadow", "passes/field_shadow.comp.glsl");
-  if (source == kBricks) program = load("brick_shadow", "passes/brick_shadow.comp.glsl");
-  if (source == kPublished) program = load("published_shadow", "passes/published_shadow.comp.glsl");
+  const bool mapsDecide = settings.method == ShadowMethod::MapsAndField;
+  std::shared_ptr<Program>& program = programs_[source][(mapsDecide ? 2u : 0u) + (counts ? 1u : 0u)];
+  if (!program) program = load(source, mapsDecide, counts);
   return *program;
 }
 
@@ -47,6 +54,7 @@ void FieldShadowPass::record(const FrameContext& context) {
   context.scene.bindSdfInstances();
   context.scene.bindNodeRows();
   bindWorldField(*context.field);
+  if (context.shadowMaps) context.shadowMaps->bind();
   context.targets.bindGBuffer();
   context.scene.bindLights();
   context.counters.bindStorage(shared::kPassBufferABinding);

@@ -1,5 +1,5 @@
-// A layer at a time, with the light's view in place of the camera's. Nothing is culled by its facing: light is stopped
-// by back faces as well.
+// A layer at a time, with the light's view in place of the camera's and what that may see. Nothing is culled by its
+// facing: light is stopped by back faces as well.
 #include "passes/light/shadow_map_pass.h"
 
 #include "passes/light/shadow_maps.h"
@@ -41,14 +41,15 @@ PassDeclaration ShadowMapPass::declare() {
           {{Resource::ShadowMap, Access::Attachment}, {Resource::Counters, Access::StorageWrite}}};
 }
 
-void ShadowMapPass::drawMeshes(const FrameContext& context) {
+void ShadowMapPass::drawMeshes(const FrameContext& context, int layer) {
   const ResidentScene& scene = context.scene;
   scene.meshes().vertexArray().bind();
   scene.bindMeshDraws();
   scene.materials().bindRows();
   int boundMaterial = -2;
   const Program* used = nullptr;
-  for (const MeshBatch& batch : scene.batches()) {
+  for (const CasterRun& run : context.shadowMaps->casters(layer)) {
+    const MeshBatch& batch = scene.batches()[run.batch];
     const int material = batch.primitive.material;
     const bool isMasked = scene.materials().isMasked(material);
     const Program* program = isMasked ? masked_.get() : opaque_.get();
@@ -57,12 +58,12 @@ void ShadowMapPass::drawMeshes(const FrameContext& context) {
     glDrawElementsInstancedBaseVertexBaseInstance(
         GL_TRIANGLES, static_cast<GLsizei>(batch.primitive.indexCount), GL_UNSIGNED_INT,
         reinterpret_cast<const void*>(std::size_t{batch.primitive.firstIndex} * sizeof(std::uint32_t)),
-        static_cast<GLsizei>(batch.drawCount), static_cast<GLint>(batch.baseVertex), batch.firstDraw);
+        static_cast<GLsizei>(run.drawCount), static_cast<GLint>(batch.baseVertex), run.firstDraw);
   }
   for (GLuint unit = 0; unit < shared::MATERIAL_TEXTURES; ++unit) Sampler::unbind(shared::kMaterialTextureUnit + unit);
 }
 
-void ShadowMapPass::drawBoxes(const FrameContext& context) {
+void ShadowMapPass::drawBoxes(const FrameContext& context, int layer) {
   const VisibleBoxes& visible = context.shadowMaps->visible();
   context.scene.bindSdfInstances();
   visible.commands().bindStorage(shared::kPassBufferABinding);
@@ -71,6 +72,10 @@ void ShadowMapPass::drawBoxes(const FrameContext& context) {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); // the list of the layer before is used up
   cull_->dispatchOver({1, 1, 1});
   glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+  if (context.countersOn) {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    context.shadowMaps->keepCommands(layer);
+  }
   context.scene.atlas().bind();
   if (context.countersOn) context.counters.bindStorage(shared::kPassBufferABinding);
   (context.countersOn ? countingBoxes_ : boxes_)->use();
@@ -91,10 +96,10 @@ void ShadowMapPass::record(const FrameContext& context) {
     maps.bindView(layer);
     if (context.scene.sdfInstanceCount() > 0) {
       target.bind();
-      drawBoxes(context);
+      drawBoxes(context, layer);
     }
     target.bind();
-    drawMeshes(context);
+    drawMeshes(context, layer);
   }
   context.frameParams->bindUniform(shared::kFrameUniformBinding);
 }

@@ -16,8 +16,8 @@ public:
   void record(const FrameContext& context);
 
 private:
-  void drawMeshes(const FrameContext& context);
-  void drawBoxes(const FrameContext& context);
+  void drawMeshes(const FrameContext& context, int layer);
+  void drawBoxes(const FrameContext& context, int layer);
 
   std::shared_ptr<Program> opaque_, masked_, cull_, boxes_, countingBoxes_;
 };

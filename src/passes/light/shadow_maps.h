@@ -8,6 +8,7 @@
 #include "gpu/buffer.h"
 #include "gpu/framebuffer.h"
 #include "gpu/texture.h"
+#include "passes/light/shadow_casters.h"
 #include "passes/visible_boxes.h"
 #include "scene/shadow_views.h"
 #include "shared/frame_params.h"
@@ -27,18 +28,21 @@ struct ShadowMapSettings {
 
 class ShadowMaps {
 public:
-  explicit ShadowMaps(const ShadowMapSettings& settings);
+  /// hasRanges  in place of a filter: nearest and farthest depths over squares
+  ShadowMaps(const ShadowMapSettings& settings, bool hasRanges);
 
   /// Lays out the views of a frame for the first MOST_SHADOWED_LIGHTS lights and makes room for their layers.
   ///
   /// boundsWorld    of all casters and receivers
   /// frame          whose counts the views' parameters take over
   /// sdfInstances   boxes that a view may hold
+  /// casters        of which each view draws those that it may see
   /// error          Failure: no memory
   void prepare(const std::vector<PosedLight>& lights, const View& camera, const Box& boundsWorld,
-               const shared::FrameParams& frame, std::uint32_t sdfInstances);
+               const shared::FrameParams& frame, std::uint32_t sdfInstances, const ShadowCasters& casters);
 
   const ShadowMapSettings& settings() const { return settings_; }
+  bool hasRanges() const { return hasRanges_; }
   int layerCount() const { return static_cast<int>(views_.size()); }
   const std::vector<ShadowView>& views() const { return views_; }
   const shared::ShadowMapParams& params() const { return params_; }
@@ -46,9 +50,21 @@ public:
   void bindView(int layer) const;
   const Framebuffer& framebuffer(int layer) const { return framebuffers_[static_cast<std::size_t>(layer)]; }
   const VisibleBoxes& visible() const { return visible_; }
+  const std::vector<CasterRun>& casters(int layer) const { return casters_[static_cast<std::size_t>(layer)]; }
+  /// Of meshes, over all layers.
+  std::uint32_t drawCount() const;
+  /// Keeps what the boxes' commands say of a layer, for boxCount.
+  void keepCommands(int layer) const;
+  /// Of SDF objects, over all layers of a frame that kept their commands.
+  std::uint32_t boxCount() const;
   const Texture& depths() const { return depths_; }
   const Texture& moments() const { return moments_; }      ///< empty but for EVSM
   const Texture& blurredAlongX() const { return alongX_; } ///< the same
+  /// Of squares of 2, 4, 8, ... texels a side, a level above the other as rangeBox says; empty unless asked for.
+  const Texture& ranges() const { return ranges_; }
+  int rangeLevels() const { return params_.size.z; }
+  /// Of a level in the ranges: first row, and squares a side.
+  glm::ivec2 rangeBox(int level) const;
   /// Parameters and textures for lib/shadow_map.glsl.
   void bind() const;
   std::size_t bytes() const;
@@ -57,11 +73,13 @@ private:
   void fitLayers();
 
   ShadowMapSettings settings_;
+  bool hasRanges_;
   std::vector<ShadowView> views_;
   shared::ShadowMapParams params_{};
-  Texture depths_, moments_, alongX_;
+  Texture depths_, moments_, alongX_, ranges_;
   std::vector<Framebuffer> framebuffers_;
-  Buffer viewParams_, mapParams_;
+  std::vector<std::vector<CasterRun>> casters_; ///< a layer each
+  Buffer viewParams_, mapParams_, keptCommands_;
   VisibleBoxes visible_;
 };
 

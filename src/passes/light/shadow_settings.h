@@ -5,8 +5,14 @@
 
 namespace brickfield {
 
-/// Shadows of the lights.
-enum class ShadowMethod : std::uint8_t { None, Field, Maps };
+/// Shadows of the lights: marched in the world field, by shadow maps, or marched where the maps are unsure.
+enum class ShadowMethod : std::uint8_t { None, Field, Maps, MapsAndField };
+inline bool marchesField(ShadowMethod method) {
+  return method == ShadowMethod::Field || method == ShadowMethod::MapsAndField;
+}
+inline bool drawsMaps(ShadowMethod method) {
+  return method == ShadowMethod::Maps || method == ShadowMethod::MapsAndField;
+}
 
 /// How the world field is asked:
 ///   Rays      a cone, then rays over the light where it is touched; our own

@@ -16,15 +16,29 @@ using Names = std::set<std::string>;
 
 const fs::path kSource = BRICKFIELD_SOURCE_DIR;
 
-const std::vector<ProgramSource>& programs() {
-  static const auto compute = [](const std::string& label, const std::string& path) {
+// Each way to march shadows, after shadow maps or without, counting or not.
+std::vector<ProgramSource> marchedShadows() {
+  std::vector<ProgramSource> all;
+  for (const std::string name : {"field_shadow", "brick_shadow", "published_shadow"})
+    for (const bool mapsDecide : {false, true})
+      for (const bool counts : {false, true}) {
+        ProgramSource source{name, {{GL_COMPUTE_SHADER, "passes/" + name + ".comp.glsl"}}, {}, {}};
+        if (mapsDecide) source.label += "_maps", source.defines["MAPS_DECIDE"] = "1";
+        if (counts) source.label += "_counting", source.defines["COUNTERS_ON"] = "1";
+        all.push_back(std::move(source));
+      }
+  return all;
+}
+
+std::vector<ProgramSource> tableOfPrograms() {
+  const auto compute = [](const std::string& label, const std::string& path) {
     return ProgramSource{label, {{GL_COMPUTE_SHADER, path}}, {}, {}};
   };
-  static const auto draw = [](const std::string& label, const std::string& vertex, const std::string& fragment,
-                              std::map<std::string, std::string> defines) {
+  const auto draw = [](const std::string& label, const std::string& vertex, const std::string& fragment,
+                       std::map<std::string, std::string> defines) {
     return ProgramSource{label, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}, std::move(defines), {}};
   };
-  static const std::vector<ProgramSource> table{
+  std::vector<ProgramSource> table{
       compute("deform", "passes/deform.comp.glsl"),
       compute("sdf_cull", "passes/sdf_cull.comp.glsl"),
       draw("mesh", "passes/mesh.vert.glsl", "passes/mesh.frag.glsl", {}),
@@ -42,6 +56,7 @@ const std::vector<ProgramSource>& programs() {
            {{"COUNTERS_ON", "1"}, {"DEPTH_ONLY", "1"}}),
       compute("shadow_moments", "passes/shadow_moments.comp.glsl"),
       compute("map_shadow", "passes/map_shadow.comp.glsl"),
+      compute("shadow_range", "passes/shadow_range.comp.glsl"),
       compute("shadow_map_view", "debug/shadow_map_view.comp.glsl"),
       draw("box_overdraw", "passes/sdf_box.vert.glsl", "debug/box_overdraw.frag.glsl", {}),
       compute("environment_prefilter", "passes/environment_prefilter.comp.glsl"),
@@ -67,15 +82,6 @@ const std::vector<ProgramSource>& programs() {
       compute("field_sides", "passes/field_sides.comp.glsl"),
       compute("field_objects", "passes/field_objects.comp.glsl"),
       {"field_objects_flipped", {{GL_COMPUTE_SHADER, "passes/field_objects.comp.glsl"}}, {{"FLIPPED", "1"}}, {}},
-      compute("field_shadow", "passes/field_shadow.comp.glsl"),
-      {"field_shadow_counting", {{GL_COMPUTE_SHADER, "passes/field_shadow.comp.glsl"}}, {{"COUNTERS_ON", "1"}}, {}},
-      compute("brick_shadow", "passes/brick_shadow.comp.glsl"),
-      {"brick_shadow_counting", {{GL_COMPUTE_SHADER, "passes/brick_shadow.comp.glsl"}}, {{"COUNTERS_ON", "1"}}, {}},
-      compute("published_shadow", "passes/published_shadow.comp.glsl"),
-      {"published_shadow_counting",
-       {{GL_COMPUTE_SHADER, "passes/published_shadow.comp.glsl"}},
-       {{"COUNTERS_ON", "1"}},
-       {}},
       compute("field_occlusion", "passes/field_occlusion.comp.glsl"),
       {"field_occlusion_counting",
        {{GL_COMPUTE_SHADER, "passes/field_occlusion.comp.glsl"}},
@@ -102,6 +108,12 @@ const std::vector<ProgramSource>& programs() {
       compute("debug_view", "debug/debug_view.comp.glsl"),
       compute("field_view", "debug/field_view.comp.glsl"),
   };
+  for (ProgramSource& source : marchedShadows()) table.push_back(std::move(source));
+  return table;
+}
+
+const std::vector<ProgramSource>& programs() {
+  static const std::vector<ProgramSource> table = tableOfPrograms();
   return table;
 }
 

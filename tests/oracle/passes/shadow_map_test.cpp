@@ -364,6 +364,10 @@ TEST_F(ShadowMap, LayersAndFragmentsAreCounted) {
   renderer->render(scene.autoView({64, 36}));
   const FrameStats stats = renderer->stats();
   EXPECT_EQ(stats.shadowMapLayers, 4u + 6u);
+  // The floor is under the sphere light: below it and to all four sides, not above. All of the sun's squares meet it.
+  EXPECT_EQ(stats.shadowMapDraws, 4u + 5u);
+  EXPECT_GE(stats.shadowMapBoxes, 4u + 1u);
+  EXPECT_LE(stats.shadowMapBoxes, 4u + 5u);
   EXPECT_GT(stats.counters.mapFragments, 200u);
   EXPECT_GT(stats.counters.mapSteps, stats.counters.mapFragments);
   EXPECT_GE(stats.bytes.shadowMaps, 10u * 64 * 64 * 4);

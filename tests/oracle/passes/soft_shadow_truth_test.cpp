@@ -105,11 +105,17 @@ TEST_F(SoftShadowTruth, ErrorsStayWithinTheBars) {
   ShadowSettings shadows;
   shadows.method = ShadowMethod::Field;
   const std::vector<ShadowErrors> alone = draw({}, shadows, "alone"), bricks = draw(withBricks(), shadows, "bricks");
+  shadows.method = ShadowMethod::MapsAndField;
+  const std::vector<ShadowErrors> maps = draw(withBricks(), shadows, "maps");
   for (std::size_t light = 0; light < alone.size(); ++light) {
     SCOPED_TRACE(light);
     EXPECT_LE(alone[light].rmse, 0.06);
     EXPECT_LE(bricks[light].rmse, 0.04);
     EXPECT_LT(bricks[light].rmse, alone[light].rmse + 0.005) << "no worse for them"; // a panel is soft enough without
+    EXPECT_LE(maps[light].rmse, bricks[light].rmse + 0.001) << "maps decide no worse";
+    EXPECT_LE(std::abs(maps[light].mean), 0.01);
+    EXPECT_LE(maps[light].speckled, 0.001);
+    EXPECT_LE(maps[light].leaking, 0.001);
     EXPECT_LE(std::abs(bricks[light].mean), 0.01);
     EXPECT_LE(bricks[light].speckled, 0.001);
     EXPECT_LE(bricks[light].leaking, 0.001);
