@@ -43,7 +43,7 @@ enum class Resource : std::uint8_t {
   WorldFieldCoarse,  ///< unsigned, less the thickness
   WorldField,        ///< the volume that other passes read, and what it keeps from frame to frame
 };
-inline constexpr int kResourceCount = 30;
+inline constexpr int kResourceCount = 32;
 const char* resourceName(Resource resource);
 
 /// How the GPU touches it: decides the barrier after incoherent writes.

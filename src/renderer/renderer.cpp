@@ -111,7 +111,8 @@ constexpr bool isLate = requires(Pass pass, ShaderLibrary& shaders) {
 struct FrameShape {
   bool boxesFirst = false, hasTriplanar = false;
   bool hasExactField = false, hasRtsdfField = false, hasFieldShadows = false, hasOcclusion = false;
-  bool hasTranslucency = false, hasReflections = false, hasShadowMaps = false, hasShadowMoments = false, hasShadowRanges = false;
+  bool hasTranslucency = false, hasReflections = false, hasShadowMaps = false, hasShadowMoments = false,
+       hasShadowRanges = false;
   bool mapsAnswer = false, hasTaa = false;
   bool showsPicture = false, showsDebugView = false, showsFieldView = false, showsShadowMaps = false, showsTaa = false;
 };

@@ -131,6 +131,7 @@ TEST_F(FramePasses, BackgroundsForgetTheFrameBefore) {
   settings.shadows.method = ShadowMethod::Field;
   settings.occlusion.form = OcclusionForm::Cones;
   settings.translucency.source = TranslucencySource::Given;
+  settings.reflections.method = ReflectionMethod::Field;
   const auto renderer = scene.makeRenderer(context().info(), settings);
   const View near = scene.view({0, 0, 2}, {0, 0, 0}, {32, 32}), far = scene.view({0, 0, 9}, {0, 0, 0}, {32, 32});
   std::vector<std::string> shown{""};
