@@ -43,13 +43,6 @@ bool isCutOff(vec3 pointAnchored, float metres) {
   return isFieldCut(coarsest, metres * coarsest.texel.y, fieldDepth(last, pointAnchored * coarsest.texel.y));
 }
 
-// Half of the half vectors of a GGX lobe lie within the angle whose tangent is alpha (Walter et al. 2007, eq. 35), so
-// half of what a surface mirrors comes from within twice that.
-float spreadOfRoughness(float roughness) {
-  float alpha = roughness * roughness;
-  return min(2.0 * alpha / max(1.0 - alpha * alpha, 1e-3), 1.0);
-}
-
 ReflectionMet traceReflection(ReflectionRay ray) {
   ReflectionMet met = ReflectionMet(1.0, 0.0, ray.origin, 0.0, ray.grain);
   float spread = min(ray.spread, REFLECTION_CLEAR * max(dot(ray.normal, ray.direction), 0.0));

@@ -41,6 +41,13 @@ ReflectedPixel reflectedPixel(ivec2 pixel) {
   return found;
 }
 
+// Half of the half vectors of a GGX lobe lie within the angle whose tangent is alpha (Walter et al. 2007, eq. 35), so
+// half of what a surface mirrors comes from within twice that.
+float spreadOfRoughness(float roughness) {
+  float alpha = roughness * roughness;
+  return min(2.0 * alpha / max(1.0 - alpha * alpha, 1e-3), 1.0);
+}
+
 // How far the mirrored direction turns from a pixel to those beside and above it, as a length: what a pixel mirrors is as
 // wide, a metre away.
 float turnOfPixel(ivec2 pixel, ReflectedPixel own) {

@@ -22,6 +22,10 @@ const int MOST_ROWS = 8; // instances of a node that are looked at
 // would be met by a pixel here and there.
 const float LEAST_MET_ROUGHNESS = 0.3;
 
+// A small lamp that the middle of a rough cone meets does not fill it. What one sample may send, times the square of the
+// cone's width: so much that a lamp in a mirror is as bright as it is, and on rough surfaces makes no sparks.
+const float MOST_OF_CONE = 1.0;
+
 struct MirroredSurface {
   Surface surface;
   vec3 pointEye;
@@ -111,7 +115,10 @@ vec3 shadedReflection(ivec2 place, ReflectedPixel pixel, uvec4 code) {
   vec3 around = environmentAround(pixel.direction, pixel.roughness);
   if (hit.free >= 1.0) return around;
   float rough = smoothstep(MOST_ROUGHNESS - 0.1, MOST_ROUGHNESS, pixel.roughness);
-  return mix(radianceOfMet(place, pixel, hit), around, max(hit.free, rough));
+  vec3 met = radianceOfMet(place, pixel, hit);
+  float spread = spreadOfRoughness(pixel.roughness), most = MOST_OF_CONE / max(spread * spread, 1e-6);
+  met *= min(most / max(max(met.r, met.g), max(met.b, 1e-6)), 1.0);
+  return mix(met, around, max(hit.free, rough));
 }
 
 void main() {

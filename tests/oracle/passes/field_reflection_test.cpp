@@ -44,11 +44,11 @@ Material mirror(float roughness) {
   material.roughness = roughness; // white metal
   return material;
 }
-Material glowing() {
+Material glowing(float radiance = kGlow) {
   Material material;
   material.baseColor = {0, 0, 0, 1};
   material.metallic = 0;
-  material.emission = glm::vec3(kGlow);
+  material.emission = glm::vec3(radiance);
   return material;
 }
 
@@ -59,9 +59,9 @@ Scene floorScene(float roughness) {
   addNode(scene, makeBoxMesh({1.5f, 0.05f, 1.5f}), glm::translate(glm::mat4(1), {0, -0.05f, 0}), mirror(roughness));
   return scene;
 }
-Scene sphereOverFloor(float roughness) {
+Scene sphereOverFloor(float roughness, float radiance = kGlow) {
   Scene scene = floorScene(roughness);
-  addNode(scene, makeSphereMesh(kRadius, 48, 96), glm::translate(glm::mat4(1), kMiddle), glowing());
+  addNode(scene, makeSphereMesh(kRadius, 48, 96), glm::translate(glm::mat4(1), kMiddle), glowing(radiance));
   return scene;
 }
 
@@ -228,6 +228,24 @@ TEST_F(FieldReflection, ConesAreAsWideAsSurfacesAreRough) {
                sum / static_cast<double>(partly), partly);
     EXPECT_GT(partly, 100u);
     EXPECT_LE(sum / static_cast<double>(partly), roughness < 0.3f ? 0.05 : 0.12);
+  }
+}
+
+// Whatever a rough cone meets, its middle alone does not fill it: at most one over the square of its width. A mirror
+// shows it as it is.
+TEST_F(FieldReflection, LampsMakeNoSparksOnRoughSurfaces) {
+  constexpr float kLamp = 5000;
+  for (const float roughness : {0.0f, 0.2f, 0.4f}) {
+    const TestScene scene(sphereOverFloor(roughness, kLamp), "Node1", 64);
+    const View view = scene.view({1.3f, 0.9f, 1.6f}, {0, 0.1f, 0}, kSize, 50);
+    const FrameLayers layers = draw(scene, view, evenly(0), reflecting(1));
+    float brightest = 0;
+    for (std::size_t i = 0; i < layers.id.size(); ++i)
+      if (layers.id[i] == 0) brightest = std::max(brightest, layers.color[i].x);
+    const float alpha = roughness * roughness, width = 2 * alpha / (1 - alpha * alpha);
+    const float most = std::min(kLamp, 1 / (width * width));
+    EXPECT_LE(brightest, 1.01f * most) << roughness;
+    EXPECT_GE(brightest, 0.7f * most) << roughness;
   }
 }
 
