@@ -1,13 +1,11 @@
 // Temporal antialiasing: each frame samples another place of its pixels; what was seen there before is fetched along the
 // motion vectors, held to what the neighbours say now, and averaged in. Variance clipping after Salvi (2016), in YCoCg;
 // the nearest surface of 3x3 leads, so that moving edges stay smooth.
-#include "lib/gbuffer.glsl"
-#include "lib/motion.glsl"
+#include "lib/motion_at.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = kColorUnit) uniform sampler2D color;
-layout(binding = kMotionUnit) uniform sampler2D motion;
 layout(binding = kHistoryUnit) uniform sampler2D history;
 layout(binding = kHistoryDepthUnit) uniform sampler2D history_depth;
 layout(binding = 0, rgba16f) writeonly uniform image2D history_now;
@@ -35,17 +33,6 @@ float depthAt(ivec2 pixel) {
   if (stored <= 0.0) return SKY_DEPTH;
   float t = rayParameterOfDepth(originEye, directionWorld, stored);
   return viewDepth(frame.clipFromEye * vec4(originEye + t * directionWorld, 1.0));
-}
-
-vec3 motionAt(ivec2 pixel) {
-  if (kindOfId(texelFetch(id, pixel, 0).r) != KIND_NONE) return texelFetch(motion, pixel, 0).rgb;
-  // The sky turns with the camera alone.
-  vec3 originEye, directionWorld;
-  viewRay(ndcFromPixel(vec2(pixel) + 0.5), originEye, directionWorld);
-  if (frame.projection.z > 0.5) return vec3(0.0, 0.0, 1.0);
-  vec4 now = frame.clipFromEye * vec4(directionWorld, 0.0), before = frame.previousClipFromEye * vec4(directionWorld, 0.0);
-  if (before.w <= 0.0) return vec3(6e4, 6e4, 1.0);
-  return vec3((now.xy / now.w - frame.jitter.xy - before.xy / before.w) * 0.5 * vec2(frame.size.xy), 1.0);
 }
 
 // Bicubic (Catmull-Rom) by nine bilinear reads: a history that is fetched bilinearly sixty times is blurred.

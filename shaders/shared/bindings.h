@@ -76,6 +76,7 @@ SHARED_CONST uint kTranslucentUnit = 31; // behind the bricks
 SHARED_CONST uint kThicknessUnit = 32;
 SHARED_CONST uint kReflectionUnit = 33;
 SHARED_CONST uint kReflectionHitUnit = 34;
+SHARED_CONST uint kMotionTileUnit = 35;
 SHARED_CONST uint kDistanceR8Unit = 26; // the bricks, which are read beside all of these
 SHARED_CONST uint kDistanceR16Unit = 27;
 SHARED_CONST uint kBrickBaseColorUnit = 28;

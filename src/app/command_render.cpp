@@ -41,6 +41,8 @@ void settleFrameOptions(RenderRequest& request) {
   checkFieldShadowChoice(request.fieldShadows, marchesField(shadowMethodOf(request.shadows)),
                          request.field.settings.method == FieldMethod::Exact);
   settleOcclusionChoice(request.occlusion, request.view, request.field.settings.method != FieldMethod::Off);
+  if (request.taa.shutter > 0 && !request.taa.on)
+    throw BadInput("--motion-blur", "", "needs --taa on, which finds what moves");
   settleTranslucencyChoice(request.translucency, request.view);
   checkReflectionChoice(request.reflections, request.view, request.field.settings.method == FieldMethod::Exact);
   checkInputPath(request.scene.path, {".gltf", ".glb"});
@@ -72,6 +74,10 @@ void addFrameOptions(CLI::App& command, RenderRequest& request) {
   addValue(command, "--sharpness", "Of temporal antialiasing, 0 (the default) to 1", [&](auto& flag, auto& text) {
     request.taa.sharpness = static_cast<float>(parseNumber(flag, text, 0, 1));
   })->type_name("S");
+  addValue(command, "--motion-blur",
+           "Smears what moves over this share of the time between two frames, 0 (the default) to 1; with --taa on",
+           [&](auto& flag, auto& text) { request.taa.shutter = static_cast<float>(parseNumber(flag, text, 0, 1)); })
+      ->type_name("SHARE");
   addOcclusionOptions(command, request.occlusion);
   addTranslucencyOptions(command, request.translucency);
   addReflectionOptions(command, request.reflections);

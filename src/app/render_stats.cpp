@@ -104,7 +104,7 @@ Json settingsJson(const RenderRun& run) {
   }
   if (drawsMaps(shadowMethodOf(request.shadows))) json["shadow_maps"]["size"] = request.shadowMaps.size;
   if (request.shadows == ShadowChoice::Csm) json["shadow_maps"]["filter"] = shadowFilterName(request.shadowMaps.filter);
-  json["taa"] = {{"on", request.taa.on}, {"sharpness", request.taa.sharpness}};
+  json["taa"] = {{"on", request.taa.on}, {"sharpness", request.taa.sharpness}, {"shutter", request.taa.shutter}};
   json["ao"] = occlusionSettingsJson(request.occlusion.settings);
   json["translucency"] = {{"what", translucencyText(request.translucency.settings)},
                           {"wrap", request.translucency.settings.wrap}};

@@ -28,6 +28,7 @@
 #include "passes/light/shadow_moments_pass.h"
 #include "passes/light/shadow_range_pass.h"
 #include "passes/light/translucency_pass.h"
+#include "passes/post/motion_blur_pass.h"
 #include "passes/post/taa_pass.h"
 #include "passes/post/taa_sharpen_pass.h"
 #include "passes/post/temporal.h"
@@ -85,6 +86,7 @@ void recordPass(ShadowRangePass& pass, const FrameContext& frame) { pass.record(
 void recordPass(MapShadowPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(ShadowMapViewPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(TaaPass& pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(MotionBlurPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(TaaSharpenPass& pass, const FrameContext& frame) { pass.record(frame); }
 void recordPass(TaaViewPass& pass, const FrameContext& frame) { pass.record(frame); }
 
@@ -113,7 +115,7 @@ struct FrameShape {
   bool hasExactField = false, hasRtsdfField = false, hasFieldShadows = false, hasOcclusion = false;
   bool hasTranslucency = false, hasReflections = false, hasShadowMaps = false, hasShadowMoments = false,
        hasShadowRanges = false;
-  bool mapsAnswer = false, hasTaa = false;
+  bool mapsAnswer = false, hasTaa = false, hasMotionBlur = false;
   bool showsPicture = false, showsDebugView = false, showsFieldView = false, showsShadowMaps = false, showsTaa = false;
 };
 
@@ -160,6 +162,7 @@ struct Renderer::Parts {
   LatePass<ShadowMapViewPass> shadowMapView;
   LatePass<TaaPass> taa;
   LatePass<TaaSharpenPass> taaSharpen;
+  LatePass<MotionBlurPass> motionBlur;
   LatePass<TaaViewPass> taaView;
 
   RendererSettings settings;
@@ -253,6 +256,7 @@ void Renderer::Parts::prepareTemporal() {
   }
   if (!temporal) temporal = std::make_unique<Temporal>(*targets);
   temporal->sharpness = settings.taa.sharpness;
+  temporal->shutter = settings.taa.shutter;
   temporal->table.prepare(*scene);
   view.jitterNdc = 2.0f * taaJitter(temporal->frame) / glm::vec2(view.sizePixels);
 }
@@ -311,6 +315,7 @@ void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
     take(&Parts::taa);
     take(&Parts::taaSharpen);
   }
+  if (shape.hasMotionBlur) take(&Parts::motionBlur);
   if (shape.showsPicture) take(&Parts::tone);
   if (shape.showsDebugView) {
     take(&Parts::boxOverdraw);
@@ -339,6 +344,7 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
                          .hasShadowRanges = hasRanges,
                          .mapsAnswer = hasMaps && !hasRanges,
                          .hasTaa = context.temporal != nullptr,
+                         .hasMotionBlur = context.temporal && context.temporal->shutter > 0,
                          .showsPicture = !shown,
                          .showsDebugView = shown && !readsField && !readsMaps && !readsTemporal,
                          .showsFieldView = readsField,
@@ -550,6 +556,7 @@ std::vector<std::string> framePassNames() {
                                .hasShadowRanges = true,
                                .mapsAnswer = true,
                                .hasTaa = true,
+                               .hasMotionBlur = true,
                                .showsPicture = true,
                                .showsDebugView = true,
                                .showsFieldView = true,

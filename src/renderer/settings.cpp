@@ -137,6 +137,8 @@ void checkSettings(const RendererSettings& settings) {
                    fmt::format("is not {} to {}", kLeastShadowTexels, kMostShadowTexels));
   if (!(settings.taa.sharpness >= 0 && settings.taa.sharpness <= 1))
     throw BadInput("taa", fmt::format("sharpness {}", settings.taa.sharpness), "is not in [0, 1]");
+  if (!(settings.taa.shutter >= 0 && settings.taa.shutter <= 1))
+    throw BadInput("taa", fmt::format("shutter {}", settings.taa.shutter), "is not in [0, 1]");
   checkOcclusionSettings(settings.occlusion);
   checkTranslucencySettings(settings.translucency);
   checkReflectionSettings(settings.reflections);

@@ -40,6 +40,7 @@ TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
     if (settings.view == "shadow-map") settings.shadows.method = ShadowMethod::Maps;
     if (settings.view == "albedo") settings.shadows.method = ShadowMethod::MapsAndField;
     settings.taa.on = settings.view == "motion";
+    settings.taa.shutter = 0.5f;
     settings.occlusion.form = settings.view == "steps" ? OcclusionForm::Cones : OcclusionForm::Off;
     settings.translucency.source = settings.view == "steps" ? TranslucencySource::Materials : TranslucencySource::Off;
     settings.reflections.method = settings.view == "field" ? ReflectionMethod::Field : ReflectionMethod::Off;

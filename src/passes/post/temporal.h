@@ -13,6 +13,7 @@ namespace brickfield {
 struct TaaSettings {
   bool on = false;
   float sharpness = 0; ///< 0 to 1: how much of a pixel's difference from its neighbours is added to it
+  float shutter = 0;   ///< 0 to 1: share of the time between two frames over which what moves is smeared
 
   bool operator==(const TaaSettings&) const = default;
 };
@@ -37,7 +38,7 @@ struct Temporal {
   MotionTable table;
   std::uint32_t frame = 0;
   bool hasHistory = false;
-  float sharpness = 0;
+  float sharpness = 0, shutter = 0; ///< of this frame
 };
 
 } // namespace brickfield

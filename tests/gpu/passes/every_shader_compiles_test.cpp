@@ -63,6 +63,8 @@ std::vector<ProgramSource> tableOfPrograms() {
       compute("environment_brdf", "passes/environment_brdf.comp.glsl"),
       compute("lighting", "passes/lighting.comp.glsl"),
       compute("taa", "passes/taa.comp.glsl"),
+      compute("motion_tiles", "passes/motion_tiles.comp.glsl"),
+      compute("motion_blur", "passes/motion_blur.comp.glsl"),
       compute("taa_sharpen", "passes/taa_sharpen.comp.glsl"),
       compute("taa_view", "debug/taa_view.comp.glsl"),
       compute("tone", "passes/tone.comp.glsl"),

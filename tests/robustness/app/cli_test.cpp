@@ -120,10 +120,17 @@ TEST_F(CommandLine, RefusesValuesOutOfRange) {
     for (const char* light : {"sun", "sun:0,0,0:1:1", "moon:1,2,3:1:1", "sphere:1,2,3:-1:1", ""})
       refuse(command, "--light", light);
     for (const char* pattern : {"Cat*", "", "all,Left"}) refuse(command, "--sdf", pattern);
+    for (const char* metres : {"0", "-1", "wide"}) refuse(command, "--triplanar", metres);
+    for (const char* model : {"", "phong"}) refuse(command, "--brdf", model);
   }
   for (const char* frames : {"0", "-1", "x", "100001"}) refuse("render", "--frames", frames);
   for (const char* trace : {"", "rays"}) refuse("render", "--trace", trace);
   for (const char* device : {"-1", "x"}) refuse("render", "--device", device);
+  for (const char* light : {"", "yes", "0.5", "2:1,1,1", "0.5:1,1,-1"}) refuse("render", "--translucency", light);
+  for (const char* method : {"", "ssr"}) refuse("render", "--reflections", method);
+  for (const char* shutter : {"-0.1", "1.1", "x", "0.5"})
+    refuse("render", "--motion-blur", shutter);                                          // without --taa on
+  for (const char* view : {"thickness", "reflection"}) refuse("render", "--view", view); // of what is off
   for (const char* view : {"sideways"}) refuse("render", "--view", view);
   for (const char* samples : {"0", "65537", "x"}) refuse("reference", "--samples", samples);
   for (const char* resolution : {"7", "1025"}) refuse("bake", "--resolution", resolution);
