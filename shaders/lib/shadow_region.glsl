@@ -17,7 +17,7 @@ layout(binding = kShadowRangeUnit) uniform sampler2DArray shadow_range;
 const float MAP_UNSURE = -1.0;
 // A half degree: lights that reach no farther around their middle are sharper than the world field's texels.
 const float MAP_ALONE_SPREAD = 0.0088;
-const int MAP_ROUNDS = 4;
+const int MAP_ROUNDS = 10;
 // Around the point so few texels are compared one by one, each with the plane of the point's surface.
 const float ONE_BY_ONE_TEXELS = 2.5;
 // What hides the light at one height casts a penumbra of one width, which the map knows better than the field, where
@@ -129,12 +129,12 @@ float shareByLayer(ShadowMapLight light, MapPoint point, ShadowCone cone) {
     float rises = (abs(point.slope.x) + abs(point.slope.y)) * (reach + beyond); // the point's own plane, by as much
     if (range.y > point.depth + rises + point.bias) return 0.0;
     float narrower = reachAt(layer, point, cone, range.x);
-    if (narrower > 0.8 * reach) break;
+    if (narrower > 0.95 * reach) break;
     reach = narrower;
   }
-  if (reach <= ONE_BY_ONE_TEXELS) {
+  if (reach <= ONE_BY_ONE_TEXELS) { // a penumbra of so few texels is finer than what the field could show
     float share = oneByOne(point, reach);
-    if (share != MAP_UNSURE) return share;
+    if (share != MAP_UNSURE || !isSmall) return share != MAP_UNSURE ? share : filterPcf(point);
   }
   // Of perspective maps this leaks: near the light a disk of texels is narrow, and its middle far from the truth's.
   return isSmall || layer.depth.z > 0.5 ? filterByHeight(layer, point, cone, reach, isSmall) : MAP_UNSURE;

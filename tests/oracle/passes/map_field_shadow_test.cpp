@@ -53,9 +53,9 @@ protected:
 
 // Each square's nearest and farthest depth, of sides that halve and of one with odd levels.
 TEST_F(MapFieldShadow, RangesAreThoseOfTheirTexels) {
-  for (const int side : {512, 100})
-    for (int layer = 0; layer < kSunCascades; ++layer) {
-      const auto renderer = draw(settingsOf(ShadowMethod::MapsAndField, side), 8);
+  for (const int side : {512, 100}) {
+    const auto renderer = draw(settingsOf(ShadowMethod::MapsAndField, side), 8);
+    for (int layer = 0; layer < kSunCascades; layer += kSunCascades - 1) {
       const std::vector<float> depths = renderer->readShadowMap(layer);
       std::size_t squares = 0, apart = 0;
       for (int level = 0, extent = side / 2; extent > 0; ++level, extent /= 2) {
@@ -76,6 +76,7 @@ TEST_F(MapFieldShadow, RangesAreThoseOfTheirTexels) {
       }
       EXPECT_GT(apart, squares / 50) << "of some squares the depths differ";
     }
+  }
 }
 
 // Of pixels for which nothing was read those that are wholly lit or dark are so by the closed form but for two texels
