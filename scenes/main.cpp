@@ -18,13 +18,14 @@ using brickfield::BadInput;
 
 constexpr const char* kUsage = "usage: brickfield_scenes demo -o OUT.glb\n"
                                "       brickfield_scenes interpenetration -o OUT.glb\n"
-                               "       brickfield_scenes stress [--count N] [--seed S] -o OUT.glb\n";
+                               "       brickfield_scenes stress [--count N] [--seed S] -o OUT.glb\n"
+                               "       brickfield_scenes thesis [--count N] -o OUT.glb\n";
 constexpr std::uint64_t kMaxCount = 10'000'000;
 
 struct Arguments {
   std::string_view scene;
   std::string_view output;
-  std::uint64_t count = 1000;
+  std::optional<std::uint64_t> count;
   std::uint64_t seed = 1;
 };
 
@@ -38,22 +39,25 @@ std::uint64_t parseNumber(std::string_view flag, std::string_view text, std::uin
 }
 
 Arguments parseArguments(std::span<char*> words) {
-  if (words.empty()) throw BadInput("command line", "", "no scene is named; demo, interpenetration and stress exist");
+  if (words.empty())
+    throw BadInput("command line", "", "no scene is named; demo, interpenetration, stress and thesis exist");
   Arguments arguments;
   arguments.scene = words[0];
   bool isStress = arguments.scene == "stress";
-  if (!isStress && arguments.scene != "demo" && arguments.scene != "interpenetration") {
-    throw BadInput("command line", "",
-                   fmt::format("unknown scene \"{}\"; demo, interpenetration and stress exist", arguments.scene));
+  bool isThesis = arguments.scene == "thesis";
+  if (!isStress && !isThesis && arguments.scene != "demo" && arguments.scene != "interpenetration") {
+    throw BadInput(
+        "command line", "",
+        fmt::format("unknown scene \"{}\"; demo, interpenetration, stress and thesis exist", arguments.scene));
   }
   for (std::size_t i = 1; i < words.size(); i += 2) {
     std::string_view flag = words[i];
-    bool isNumber = isStress && (flag == "--count" || flag == "--seed");
+    bool isNumber = (isStress && (flag == "--count" || flag == "--seed")) || (isThesis && flag == "--count");
     if (flag != "-o" && !isNumber) throw BadInput("command line", "", fmt::format("unknown argument \"{}\"", flag));
     if (i + 1 == words.size()) throw BadInput(flag, "", "a value is missing");
     std::string_view value = words[i + 1];
     if (flag == "-o") arguments.output = value;
-    if (flag == "--count") arguments.count = parseNumber(flag, value, 1, kMaxCount);
+    if (flag == "--count") arguments.count = parseNumber(flag, value, isThesis ? 3 : 1, isThesis ? 100 : kMaxCount);
     if (flag == "--seed") arguments.seed = parseNumber(flag, value, 0, UINT64_MAX);
   }
   if (arguments.output.empty()) throw BadInput("command line", "", "-o OUT.glb is missing");
@@ -64,7 +68,9 @@ Arguments parseArguments(std::span<char*> words) {
 std::vector<std::byte> makeScene(const Arguments& arguments) {
   if (arguments.scene == "demo") return brickfield::scenes::demoScene();
   if (arguments.scene == "interpenetration") return brickfield::scenes::interpenetrationScene();
-  return brickfield::scenes::stressScene(static_cast<int>(arguments.count), arguments.seed);
+  if (arguments.scene == "thesis")
+    return brickfield::scenes::thesisScene(static_cast<int>(arguments.count.value_or(100)));
+  return brickfield::scenes::stressScene(static_cast<int>(arguments.count.value_or(1000)), arguments.seed);
 }
 
 } // namespace

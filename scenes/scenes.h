@@ -17,4 +17,8 @@ std::vector<std::byte> interpenetrationScene();
 /// count; one node a mesh, placed by EXT_mesh_gpu_instancing. Cameras "outside" and "inside".
 std::vector<std::byte> stressScene(int count, std::uint64_t seed);
 
+/// A hall with pillars, two statues and `count` - 2 figures, 3 to 100 objects in all, one light: the scene that the
+/// thesis of 2017 was measured with, rebuilt with shapes of our own. Camera "thesis".
+std::vector<std::byte> thesisScene(int count);
+
 } // namespace brickfield::scenes

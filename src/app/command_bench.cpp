@@ -10,6 +10,7 @@
 #include "app/bench_bake.h"
 #include "app/bench_occlusion.h"
 #include "app/bench_world_field.h"
+#include "app/command_bench_frame.h"
 #include "app/command_bench_shadows.h"
 #include "app/occlusion_choice.h"
 #include "app/parse.h"
@@ -234,8 +235,9 @@ void addBake(CLI::App& bench, CommandAction& chosen) {
 void addBenchCommand(CLI::App& program, CommandAction& chosen) {
   CLI::App& command = *program.add_subcommand("bench", "Measure, on this machine");
   command.callback([&command] {
-    if (command.get_subcommands().empty()) throw BadInput("bench", "", "needs world-field, shadows, ao or bake");
+    if (command.get_subcommands().empty()) throw BadInput("bench", "", "needs frame, world-field, shadows, ao or bake");
   });
+  addFrameBench(command, chosen);
   addWorldField(command, chosen);
   addShadowBench(command, chosen);
   addOcclusion(command, chosen);

@@ -158,14 +158,34 @@ TEST(DemoScenes, InterpenetrationHasTwoOfEachKind) {
   EXPECT_EQ(sdfs, 2);
 }
 
+// Where the thesis has them; every object is closed, and the hall is made of meshes.
+TEST(DemoScenes, ThesisHasItsHallAndAsManyObjectsAsAsked) {
+  test::TemporaryFolder folder;
+  for (const int count : {15, 100}) {
+    Scene scene = importedScene(folder, "thesis --count " + std::to_string(count));
+    int objects = 0, meshes = 0;
+    glm::vec3 last(0);
+    for (const Node& node : scene.nodes) {
+      if (node.mesh < 0) continue;
+      ++(node.sdf.sdf ? objects : meshes);
+      if (node.name == "Figure") last = node.translation;
+    }
+    EXPECT_EQ(objects, count);
+    EXPECT_EQ(meshes, 6 + 8);
+    EXPECT_EQ(last, count == 15 ? glm::vec3(-10, 2.8f, -4) : glm::vec3(-15, 14.8f, -24));
+    for (const Mesh& mesh : scene.meshes) EXPECT_EQ(unmatchedEdges(mesh.primitives[0]), 0) << mesh.name;
+    EXPECT_EQ(scene.lights.at(0).radius, 0.5f);
+  }
+}
+
 TEST(DemoScenes, WrongUsageExitsWithTwo) {
   test::TemporaryFolder folder;
   std::string output = " -o '" + (folder / "x.glb").string() + "'";
   for (const char* arguments : {"", "demo", "demo -o", "demo -o x.png", "interpenetration -o /no-such-folder/x.glb"}) {
     EXPECT_EQ(runScenes(arguments), 2) << arguments;
   }
-  for (const char* arguments :
-       {"chess", "demo --count 3", "stress --count 0", "stress --count 1e3", "stress --seed -1"}) {
+  for (const char* arguments : {"chess", "demo --count 3", "stress --count 0", "stress --count 1e3", "stress --seed -1",
+                                "thesis --count 2", "thesis --count 101", "thesis --seed 1"}) {
     EXPECT_EQ(runScenes(arguments + output), 2) << arguments;
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "x.glb"));
