@@ -23,11 +23,18 @@ namespace {
 
 using nlohmann::json;
 
-// Of KHR_materials_diffuse_transmission and _volume the factors are read, not the textures, and for SDF objects alone:
-// a file that cannot do without them is refused as before.
 constexpr std::array<std::string_view, 6> kSupportedExtensions = {
     "EXT_mesh_gpu_instancing", "KHR_lights_punctual",   "KHR_materials_emissive_strength",
     "KHR_materials_unlit",     "KHR_mesh_quantization", "KHR_texture_transform"};
+
+// Their factors are read, not their textures, and by SDF objects alone: a file that cannot do without them is refused.
+constexpr std::array<std::string_view, 2> kPartlyReadExtensions = {"KHR_materials_diffuse_transmission",
+                                                                   "KHR_materials_volume"};
+
+bool isPartlyRead(std::string_view extension) {
+  return std::find(kPartlyReadExtensions.begin(), kPartlyReadExtensions.end(), extension) !=
+         kPartlyReadExtensions.end();
+}
 
 bool isSupported(std::string_view extension) {
   return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), extension) != kSupportedExtensions.end();
@@ -79,7 +86,10 @@ void checkExtensions(GltfDocument& document) {
     }
   for (const std::string& extension : used)
     if (!isSupported(extension))
-      document.warnings.push_back(fmt::format("extension {} is not supported and left out", extension));
+      document.warnings.push_back(fmt::format("extension {} is {}", extension,
+                                              isPartlyRead(extension)
+                                                  ? "read without its textures and for SDF objects' translucency alone"
+                                                  : "not supported and left out"));
 }
 
 /// Of used and unused buffers and images; what is no file beneath the folder is left to whoever reads it.

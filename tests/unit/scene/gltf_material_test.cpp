@@ -53,6 +53,7 @@ TEST(GltfMaterial, LightThatPassesThrough) {
     "KHR_materials_volume":{"attenuationDistance":0.5,"attenuationColor":[0.1,1,0]}}})");
   builder.append("materials", R"({"extensions":{"KHR_materials_diffuse_transmission":{},"KHR_materials_volume":{}}})");
   const Scene scene = builder.import();
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("extension KHR_materials_volume is read without its textures")));
   const Material& first = scene.materials[0];
   EXPECT_EQ(first.diffuseTransmission, 0.25f);
   EXPECT_EQ(first.diffuseTransmissionColor, glm::vec3(1, 0.5f, 2));
