@@ -2,6 +2,7 @@
 #include "app/bench_frame.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -22,10 +23,12 @@ using Json = nlohmann::ordered_json;
 
 // The thesis' columns, by the passes that take their place.
 struct ThesisTimes {
-  double frame = 0, primary = 0, field = 0, shadow = 0, occlusion = 0, shading = 0, post = 0;
+  double frame = 0, primary = 0, field = 0, shadow = 0, occlusion = 0, shading = 0, other = 0;
 };
 
 ThesisTimes thesisTimesOf(const Json& medians) {
+  static constexpr std::array<std::string_view, 6> kPrimary{"deform", "clear",      "sdf_cull",
+                                                            "mesh",   "depth_copy", "sdf_box"};
   ThesisTimes times;
   for (const auto& [name, value] : medians.items()) {
     const double milliseconds = value;
@@ -38,10 +41,10 @@ ThesisTimes thesisTimesOf(const Json& medians) {
       times.shading += milliseconds;
     else if (name.starts_with("field_") || name.starts_with("world_"))
       times.field += milliseconds;
-    else if (name == "tone" || name.starts_with("taa"))
-      times.post += milliseconds;
-    else
+    else if (std::ranges::find(kPrimary, name) != kPrimary.end())
       times.primary += milliseconds;
+    else
+      times.other += milliseconds;
   }
   return times;
 }
@@ -76,7 +79,7 @@ Json printThesis(int objects, const ThesisTimes& ours) {
   print("AO", ours.occlusion, program ? program->occlusion : 0, paper ? paper->occlusion : 0);
   print("shading", ours.shading, program ? program->shading : 0, 0);
   print("world field", ours.field, 0, 0);
-  print("tone, TAA", ours.post, 0, 0);
+  print("other", ours.other, 0, 0);
   return json;
 }
 
@@ -85,10 +88,15 @@ Json pixelCountsOf(const FrameStats& stats, double pixels) {
   constexpr double kBrickReadBytes = 8, kFieldReadBytes = 16;
   const FrameCounters& counts = stats.counters;
   const double bytes =
-      kBrickReadBytes * counts.brickReads + kFieldReadBytes * (double{1} * counts.shadowReads + counts.occlusionReads);
-  return {{"box_fragments", counts.fragments / pixels}, {"trace_steps", counts.steps / pixels},
-          {"brick_reads", counts.brickReads / pixels},  {"shadow_reads", counts.shadowReads / pixels},
-          {"ao_reads", counts.occlusionReads / pixels}, {"bytes_marched", bytes / pixels}};
+      kBrickReadBytes * counts.brickReads +
+      kFieldReadBytes * (double{1} * counts.shadowReads + counts.occlusionReads + counts.reflectionReads);
+  return {{"box_fragments", counts.fragments / pixels},
+          {"trace_steps", counts.steps / pixels},
+          {"brick_reads", counts.brickReads / pixels},
+          {"shadow_reads", counts.shadowReads / pixels},
+          {"ao_reads", counts.occlusionReads / pixels},
+          {"reflection_reads", counts.reflectionReads / pixels},
+          {"bytes_marched", bytes / pixels}};
 }
 
 void printFigures(const Json& stats, const Json& perPixel) {

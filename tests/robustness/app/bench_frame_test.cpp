@@ -19,8 +19,8 @@ TEST_F(BenchFrameCommand, RefusesWhatItCannotMeasure) {
 // What it prints is what it writes: each pass of the frame, their sum, and what a pixel of it read.
 TEST_F(BenchFrameCommand, MeasuresEachPassAndCountsAPixel) {
   const ProgramResult result =
-      run({"bench", "frame", "scene.gltf", "--size", "32x32", "--frames", "3", "--shadows", "csm+field", "--ao", "cones",
-           "--field-texels", "32", "--shadow-size", "64", "--json", "a.json"});
+      run({"bench", "frame", "scene.gltf", "--size", "32x32", "--frames", "3", "--shadows", "csm+field", "--ao",
+           "cones", "--field-texels", "64", "--shadow-size", "64", "--json", "a.json"});
   ASSERT_EQ(result.exitCode, 0) << result.messages;
   const std::vector<std::byte> bytes = readFile("a.json");
   const nlohmann::json figures = nlohmann::json::parse(reinterpret_cast<const char*>(bytes.data()),
