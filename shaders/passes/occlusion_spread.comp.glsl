@@ -23,35 +23,62 @@ const float LEAST_NORMAL_COSINE = 0.8;
 // Of the places in the square; with less the mean would be noise.
 const float LEAST_SUM = 1.0;
 
+// What the group's pixels read of the traced ones, from the lowest place of the first pixel's square on.
+const int GROUP = 8, MOST_SIDE = GROUP + OCCLUSION_PATTERN_SIDE + 1;
+shared vec4 tracedPoint[MOST_SIDE * MOST_SIDE];  // eye space; w: open share
+shared vec4 tracedNormal[MOST_SIDE * MOST_SIDE]; // w: 0 where nothing was traced
+
 struct PixelPoint {
   vec3 pointEye;
   vec3 normal;
   float reach; // metres, across the square
 };
 
-float likeness(PixelPoint pixel, TracedOcclusion traced, ivec2 place) {
-  if (isinf(traced.t)) return 0.0;
-  vec3 originEye, directionWorld;
-  viewRay(ndcFromPixel(vec2(pixelOfTraced(place, occlusionScale, ivec2(frame.size.xy))) + 0.5), originEye, directionWorld);
-  float off = abs(dot(pixel.normal, originEye + traced.t * directionWorld - pixel.pointEye));
-  return clamp(2.0 - 2.0 * off / (MOST_OFF_PLANE * pixel.reach), 0.0, 1.0) *
-         clamp((dot(pixel.normal, traced.normal) - LEAST_NORMAL_COSINE) / (1.0 - LEAST_NORMAL_COSINE) * 2.0, 0.0, 1.0);
+// Lowest place of a pixel's square, and how far beyond it the square begins.
+ivec2 squareCorner(ivec2 pixel, out vec2 part) {
+  vec2 first = vec2(pixel - occlusionScale / 2) / float(occlusionScale) - 0.5 * float(OCCLUSION_PATTERN_SIDE) + 0.5;
+  part = fract(first);
+  return ivec2(floor(first));
 }
 
-float spreadTo(ivec2 pixel, PixelPoint point) {
-  vec2 first = vec2(pixel - occlusionScale / 2) / float(occlusionScale) - 0.5 * float(OCCLUSION_PATTERN_SIDE) + 0.5;
-  ivec2 corner = ivec2(floor(first)), last = textureSize(occlusion_traced, 0) - 1;
-  vec2 part = first - vec2(corner);
+int sideOfGroup() { return (GROUP + occlusionScale - 1) / occlusionScale + OCCLUSION_PATTERN_SIDE + 1; }
+
+void loadTraced(ivec2 firstPlace) {
+  int side = sideOfGroup();
+  ivec2 last = textureSize(occlusion_traced, 0) - 1;
+  for (int i = int(gl_LocalInvocationIndex); i < side * side; i += GROUP * GROUP) {
+    ivec2 place = firstPlace + ivec2(i % side, i / side);
+    tracedNormal[i] = vec4(0.0);
+    if (any(lessThan(place, ivec2(0))) || any(greaterThan(place, last))) continue;
+    TracedOcclusion traced = occlusionOfCode(texelFetch(occlusion_traced, place, 0).rg);
+    if (isinf(traced.t)) continue;
+    vec3 originEye, directionWorld;
+    viewRay(ndcFromPixel(vec2(pixelOfTraced(place, occlusionScale, ivec2(frame.size.xy))) + 0.5), originEye, directionWorld);
+    tracedPoint[i] = vec4(originEye + traced.t * directionWorld, traced.open);
+    tracedNormal[i] = vec4(traced.normal, 1.0);
+  }
+  barrier();
+}
+
+float likeness(PixelPoint pixel, vec3 pointEye, vec3 normal) {
+  float off = abs(dot(pixel.normal, pointEye - pixel.pointEye));
+  return clamp(2.0 - 2.0 * off / (MOST_OFF_PLANE * pixel.reach), 0.0, 1.0) *
+         clamp((dot(pixel.normal, normal) - LEAST_NORMAL_COSINE) / (1.0 - LEAST_NORMAL_COSINE) * 2.0, 0.0, 1.0);
+}
+
+float spreadTo(ivec2 pixel, PixelPoint point, ivec2 firstPlace) {
+  vec2 part;
+  ivec2 corner = squareCorner(pixel, part) - firstPlace;
+  int side = sideOfGroup();
   float sum = 0.0, weights = 0.0;
   for (int y = 0; y <= OCCLUSION_PATTERN_SIDE; ++y)
     for (int x = 0; x <= OCCLUSION_PATTERN_SIDE; ++x) {
-      ivec2 place = corner + ivec2(x, y);
-      if (any(lessThan(place, ivec2(0))) || any(greaterThan(place, last))) continue;
+      int i = (corner.y + y) * side + corner.x + x;
+      if (tracedNormal[i].w == 0.0) continue;
       vec2 within = mix(vec2(1.0), mix(1.0 - part, part, greaterThan(ivec2(x, y), ivec2(0))),
                         equal(ivec2(x, y) % OCCLUSION_PATTERN_SIDE, ivec2(0)));
-      TracedOcclusion traced = occlusionOfCode(texelFetch(occlusion_traced, place, 0).rg);
-      float weight = within.x * within.y * likeness(point, traced, place);
-      sum += weight * traced.open;
+      float weight = within.x * within.y * likeness(point, tracedPoint[i].xyz, tracedNormal[i].xyz);
+      sum += weight * tracedPoint[i].w;
       weights += weight;
     }
   if (weights >= LEAST_SUM) return sum / weights;
@@ -61,6 +88,9 @@ float spreadTo(ivec2 pixel, PixelPoint point) {
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  vec2 part;
+  ivec2 firstPlace = squareCorner(ivec2(gl_WorkGroupID.xy) * GROUP, part);
+  loadTraced(firstPlace);
   if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return;
   float open = 1.0;
   if (kindOfId(texelFetch(id, pixel, 0).r) != KIND_NONE) {
@@ -70,7 +100,7 @@ void main() {
     vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).zw);
     float pixelMetres = 2.0 / (frame.projection.y * float(frame.size.y)) * (frame.projection.z > 0.5 ? 1.0 : t);
     float reach = pixelMetres * float(occlusionScale * OCCLUSION_PATTERN_SIDE);
-    open = spreadTo(pixel, PixelPoint(originEye + t * directionWorld, normal, reach));
+    open = spreadTo(pixel, PixelPoint(originEye + t * directionWorld, normal, reach), firstPlace);
   }
 #ifdef COUNTERS_ON
   atomicAdd(counters[COUNTER_OCCLUSION_READS], occlusionReads);
