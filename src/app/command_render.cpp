@@ -90,9 +90,9 @@ void addFrameOptions(CLI::App& command, RenderRequest& request) {
 void addRenderCommand(CLI::App& program, CommandAction& chosen) {
   CLI::App& command = *program.add_subcommand("render", "Draw a scene to a picture");
   const auto request = std::make_shared<RenderRequest>();
+  addFrameOptions(command, *request);
   addPath(command, "-o,--output", "The picture: .png (exposed, tone-mapped) or .exr (linear radiance)", request->output)
       ->required();
-  addFrameOptions(command, *request);
   addPath(command, "--layers", "Depth, normals, ids and more as one multi-part .exr", request->layers);
   addPath(command, "--stats", "Times, counts and memory as .json", request->stats);
   command.callback([request, &chosen] { chosen = [request] { return render(*request); }; });
