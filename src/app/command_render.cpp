@@ -40,6 +40,7 @@ void settleFrameOptions(RenderRequest& request) {
   settleFieldChoice(request.field, request.view, request.scene.seed);
   checkFieldShadowChoice(request.fieldShadows, marchesField(shadowMethodOf(request.shadows)),
                          request.field.settings.method == FieldMethod::Exact);
+  checkShadowMapChoice(request.shadowMaps, request.shadows);
   settleOcclusionChoice(request.occlusion, request.view, request.field.settings.method != FieldMethod::Off);
   if (request.taa.shutter > 0 && !request.taa.on)
     throw BadInput("--motion-blur", "", "needs --taa on, which finds what moves");

@@ -102,8 +102,9 @@ Json settingsJson(const RenderRun& run) {
                                             ? Json("objects")
                                             : Json(request.fieldShadows.brickVoxels)}};
   }
-  if (drawsMaps(shadowMethodOf(request.shadows))) json["shadow_maps"]["size"] = request.shadowMaps.size;
-  if (request.shadows == ShadowChoice::Csm) json["shadow_maps"]["filter"] = shadowFilterName(request.shadowMaps.filter);
+  if (drawsMaps(shadowMethodOf(request.shadows))) json["shadow_maps"]["size"] = request.shadowMaps.settings.size;
+  if (request.shadows == ShadowChoice::Csm)
+    json["shadow_maps"]["filter"] = shadowFilterName(request.shadowMaps.settings.filter);
   json["taa"] = {{"on", request.taa.on}, {"sharpness", request.taa.sharpness}, {"shutter", request.taa.shutter}};
   json["ao"] = occlusionSettingsJson(request.occlusion.settings);
   json["translucency"] = {{"what", translucencyText(request.translucency.settings)},

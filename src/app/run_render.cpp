@@ -88,7 +88,7 @@ RendererSettings rendererSettingsOf(const RenderRequest& request) {
   settings.shadows = request.fieldShadows.settings;
   settings.shadows.seed = static_cast<std::uint32_t>(request.scene.seed ^ request.scene.seed >> 32) + 1;
   settings.shadows.method = shadowMethodOf(request.shadows);
-  settings.shadowMaps = request.shadowMaps;
+  settings.shadowMaps = request.shadowMaps.settings;
   settings.taa = request.taa;
   settings.occlusion = request.occlusion.settings;
   settings.translucency = request.translucency.settings;

@@ -32,7 +32,7 @@ struct RenderRequest {
   TraceChoice trace = TraceChoice::Auto;
   ShadowChoice shadows = ShadowChoice::None;
   FieldShadowChoice fieldShadows; ///< checked
-  ShadowMapSettings shadowMaps;
+  ShadowMapChoice shadowMaps;
   TaaSettings taa;
   OcclusionChoice occlusion;       ///< settled
   TranslucencyChoice translucency; ///< settled

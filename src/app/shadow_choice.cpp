@@ -43,20 +43,30 @@ void addRenderShadows(CLI::App& command, ShadowChoice& choice) {
       ->type_name("KIND");
 }
 
-void addShadowMapOptions(CLI::App& command, ShadowMapSettings& settings) {
+void addShadowMapOptions(CLI::App& command, ShadowMapChoice& choice) {
   addValue(command, "--shadow-filter",
            "How shadow maps are filtered: pcf (three texels a side, the default) or evsm (moments, blurred over 15)",
            [&](auto& flag, auto& text) {
              if (text != "pcf" && text != "evsm")
                throw BadInput(flag, fmt::format("\"{}\"", text), "is neither pcf nor evsm");
-             settings.filter = text == "evsm" ? ShadowFilter::Evsm : ShadowFilter::Pcf;
+             choice.given.insert(flag);
+             choice.settings.filter = text == "evsm" ? ShadowFilter::Evsm : ShadowFilter::Pcf;
            })
       ->type_name("FILTER");
-  addValue(command, "--shadow-size", fmt::format("Texels of a shadow map's side, {} by default", settings.size),
+  addValue(command, "--shadow-size", fmt::format("Texels of a shadow map's side, {} by default", choice.settings.size),
            [&](auto& flag, auto& text) {
-             settings.size = static_cast<int>(parseWhole(flag, text, kLeastShadowTexels, kMostShadowTexels));
+             choice.given.insert(flag);
+             choice.settings.size = static_cast<int>(parseWhole(flag, text, kLeastShadowTexels, kMostShadowTexels));
            })
       ->type_name("N");
+}
+
+void checkShadowMapChoice(const ShadowMapChoice& choice, ShadowChoice shadows) {
+  if (choice.given.empty()) return;
+  if (!drawsMaps(shadowMethodOf(shadows)))
+    throw BadInput(*choice.given.begin(), "", "needs --shadows csm or csm+field");
+  if (choice.given.contains("--shadow-filter") && shadows != ShadowChoice::Csm)
+    throw BadInput("--shadow-filter", "", "is of --shadows csm: csm+field filters nothing");
 }
 
 const char* shadowFilterName(ShadowFilter filter) { return filter == ShadowFilter::Evsm ? "evsm" : "pcf"; }

@@ -1,6 +1,7 @@
 // The flag --shadows, which render and reference share.
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "passes/light/shadow_maps.h"
@@ -19,8 +20,14 @@ enum class ShadowChoice { Traced, Hard, Field, Csm, CsmField, None };
 /// --shadows of render: field, csm, csm+field or none, which is its default.
 /// error  BadInput at parsing: any other word
 void addRenderShadows(CLI::App& command, ShadowChoice& choice);
+struct ShadowMapChoice {
+  ShadowMapSettings settings;
+  std::set<std::string> given; ///< flags of this group
+};
 /// --shadow-filter --shadow-size
-void addShadowMapOptions(CLI::App& command, ShadowMapSettings& settings);
+void addShadowMapOptions(CLI::App& command, ShadowMapChoice& choice);
+/// error BadInput: a flag of this group where these shadows have no maps, or do not filter them
+void checkShadowMapChoice(const ShadowMapChoice& choice, ShadowChoice shadows);
 const char* shadowFilterName(ShadowFilter filter);
 
 /// --shadows of reference: none; hard, from the lights' centres; or any of render's other words, for all of which it

@@ -41,10 +41,10 @@ TEST(ShadowChoice, RenderHasFieldCsmBothAndNone) {
 TEST(ShadowChoice, MapsHaveAFilterAndASize) {
   const auto mapsOf = [](std::vector<std::string> arguments) {
     CLI::App app;
-    ShadowMapSettings settings;
-    addShadowMapOptions(app, settings);
+    ShadowMapChoice choice;
+    addShadowMapOptions(app, choice);
     app.parse(std::move(arguments));
-    return settings;
+    return choice.settings;
   };
   EXPECT_EQ(mapsOf({}), (ShadowMapSettings{ShadowFilter::Pcf, 2048}));
   EXPECT_EQ(mapsOf({"512", "--shadow-size", "evsm", "--shadow-filter"}), (ShadowMapSettings{ShadowFilter::Evsm, 512}));
@@ -54,6 +54,22 @@ TEST(ShadowChoice, MapsHaveAFilterAndASize) {
               AllOf(HasSubstr("--shadow-filter: "), HasSubstr("vsm"), HasSubstr("neither pcf nor evsm")));
   for (const char* size : {"63", "8193", "-1", "many"})
     EXPECT_THAT(refusalOf([&] { mapsOf({size, "--shadow-size"}); }), HasSubstr("--shadow-size")) << size;
+}
+
+TEST(ShadowChoice, FlagsOfMapsNeedMaps) {
+  for (const char* flag : {"--shadow-filter", "--shadow-size"}) {
+    const ShadowMapChoice choice{{}, {flag}};
+    EXPECT_NO_THROW(checkShadowMapChoice(choice, ShadowChoice::Csm));
+    for (const ShadowChoice shadows : {ShadowChoice::None, ShadowChoice::Field})
+      EXPECT_THAT(refusalOf([&] { checkShadowMapChoice(choice, shadows); }),
+                  AllOf(HasSubstr(flag), HasSubstr("csm or csm+field")));
+  }
+  EXPECT_NO_THROW(checkShadowMapChoice({{}, {"--shadow-size"}}, ShadowChoice::CsmField));
+  EXPECT_THAT(refusalOf([] {
+                checkShadowMapChoice({{}, {"--shadow-filter"}}, ShadowChoice::CsmField);
+              }),
+              HasSubstr("filters nothing"));
+  EXPECT_NO_THROW(checkShadowMapChoice({}, ShadowChoice::None));
 }
 
 TEST(ShadowChoice, ReferenceTracesUnlessToldNotTo) {
