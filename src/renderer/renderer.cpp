@@ -34,14 +34,10 @@
 #include "passes/post/temporal.h"
 #include "passes/post/tone_pass.h"
 #include "passes/view_params.h"
-#include "passes/world_field/exact_passes.h"
-#include "passes/world_field/hierarchy_refit_pass.h"
-#include "passes/world_field/rtsdf_jump_flood_pass.h"
-#include "passes/world_field/rtsdf_rays_pass.h"
-#include "passes/world_field/rtsdf_voxelize_pass.h"
 #include "passes/world_field/world_triangles_pass.h"
 #include "renderer/frame_plan.h"
 #include "renderer/frame_readback.h"
+#include "renderer/late_pass.h"
 #include "resident/mesh_boxes.h"
 #include "shared/bindings.h"
 #include "shared/sdf_params.h"
@@ -49,65 +45,6 @@
 namespace brickfield {
 
 namespace {
-
-void recordPass(WorldTrianglesPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(PseudonormalsPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(FieldClearPass& pass, const FrameContext& frame) { pass.record(*frame.field->exact); }
-void recordPass(FieldSplatPass& pass, const FrameContext& frame) {
-  pass.record(*frame.field->exact, frame.worldTriangles->triangles());
-}
-void recordPass(FieldCandidatesPass& pass, const FrameContext& frame) {
-  pass.record(*frame.field->exact, frame.worldTriangles->triangles());
-}
-void recordPass(FieldResolvePass& pass, const FrameContext& frame) {
-  pass.record(*frame.field->exact, frame.worldTriangles->triangles(), frame.scene);
-}
-void recordPass(HierarchyRefitPass& pass, const FrameContext& frame) {
-  pass.record(*frame.field->hierarchy, frame.worldTriangles->triangles());
-}
-void recordPass(RtsdfVoxelizePass& pass, const FrameContext& frame) {
-  pass.record(*frame.field->rtsdf, frame.worldTriangles->triangles(), frame.worldTriangles->triangleCount());
-}
-void recordPass(RtsdfJumpFloodPass& pass, const FrameContext& frame) { pass.record(*frame.field->rtsdf); }
-void recordPass(RtsdfRaysPass& pass, const FrameContext& frame) {
-  pass.record(*frame.field->rtsdf, *frame.field->hierarchy, frame.worldTriangles->triangles());
-}
-void recordPass(TriplanarPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(TranslucencyPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(FieldReflectionPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(ReflectionShadePass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(FieldShadowPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(FieldOcclusionPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(OcclusionSpreadPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(FieldViewPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(ShadowMapPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(ShadowMomentsPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(ShadowRangePass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(MapShadowPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(ShadowMapViewPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(TaaPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(MotionBlurPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(TaaSharpenPass& pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(TaaViewPass& pass, const FrameContext& frame) { pass.record(frame); }
-
-/// A pass whose shaders are compiled when a frame first has it.
-template <typename Pass>
-class LatePass {
-public:
-  static PassDeclaration declare() { return Pass::declare(); }
-  void make(ShaderLibrary& shaders) {
-    if (!pass_) pass_.emplace(shaders);
-  }
-  void record(const FrameContext& frame) { recordPass(*pass_, frame); }
-
-private:
-  std::optional<Pass> pass_;
-};
-
-template <typename Pass>
-constexpr bool isLate = requires(Pass pass, ShaderLibrary& shaders) {
-  pass.make(shaders);
-};
 
 /// What decides which passes a frame has.
 struct FrameShape {
