@@ -1,5 +1,5 @@
-// Passes that most frames do without: compiled when a frame first has them, and recorded from a frame's context, whatever
-// of it they take.
+// Passes that most frames do without: compiled when a frame first has them, and recorded from a frame's context,
+// whatever of it they take.
 #pragma once
 
 #include <optional>
@@ -37,10 +37,8 @@ inline void recordPass(RtsdfRaysPass& pass, const FrameContext& frame) {
   pass.record(*frame.field->rtsdf, *frame.field->hierarchy, frame.worldTriangles->triangles());
 }
 template <typename Pass>
-  requires requires(Pass pass, const FrameContext& frame) { pass.record(frame); }
-void recordPass(Pass& pass, const FrameContext& frame) {
-  pass.record(frame);
-}
+requires requires(Pass pass, const FrameContext& frame) { pass.record(frame); }
+void recordPass(Pass& pass, const FrameContext& frame) { pass.record(frame); }
 
 /// A pass whose shaders are compiled when a frame first has it.
 template <typename Pass>

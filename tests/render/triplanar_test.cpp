@@ -45,6 +45,10 @@ struct TexturedScene {
   Lighting lighting{{}, {{16, 8}, std::vector<glm::vec3>(128, glm::vec3(1))}};
 
   TexturedScene(const DistanceFunction& distance, Box box, const glm::mat4& worldFromObject = glm::mat4(1)) {
+    Material material;
+    material.metallic = 0;
+    material.baseColorTexture.texture = 0;
+    scene = makeBoxAlone(std::move(material), worldFromObject);
     scene.images = {columnsAndRows(), oneNormal(glm::normalize(glm::vec3(0.5f, 0.3f, 0.8f)))};
     for (const int image : {0, 1}) {
       SceneTexture texture;
@@ -53,17 +57,6 @@ struct TexturedScene {
       texture.mipmap.reset();
       scene.textures.push_back(texture);
     }
-    Material material;
-    material.metallic = 0;
-    material.baseColorTexture.texture = 0;
-    scene.materials.push_back(material);
-    scene.meshes.push_back(makeBoxMesh(glm::vec3(0.5f)));
-    scene.meshes[0].primitives[0].material = 0;
-    Node node;
-    node.mesh = 0;
-    node.matrix = worldFromObject;
-    scene.nodes.push_back(node);
-    scene.scenes.push_back({"scene", {0}});
     fields.fields.push_back(makeAnalyticField(distance, box, 96, 16, 1));
     fields.fieldOfNode = {0};
     fields.triplanarOfNode = {kMetres};

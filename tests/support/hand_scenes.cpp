@@ -185,6 +185,19 @@ Scene makeSheets() {
   return scene;
 }
 
+Scene makeBoxAlone(Material material, const glm::mat4& worldFromObject) {
+  Scene scene;
+  scene.materials.push_back(std::move(material));
+  scene.meshes.push_back(makeBoxMesh(glm::vec3(0.5f)));
+  scene.meshes[0].primitives[0].material = 0;
+  Node node;
+  node.mesh = 0;
+  node.matrix = worldFromObject;
+  scene.nodes.push_back(node);
+  scene.scenes.push_back({"scene", {0}});
+  return scene;
+}
+
 std::vector<AffineCase> affineCases() {
   glm::mat4 shear(1);
   shear[1][0] = 0.8f;

@@ -16,6 +16,8 @@ Mesh makeBoxMesh(glm::vec3 halfExtent);
 /// A scene with one mesh and one node, named as the mesh.
 Scene makeTorusAlone();
 Scene makeTransformedTorus(const glm::mat4& worldFromObject);
+/// One node without a name, a box of one metre of that material.
+Scene makeBoxAlone(Material material, const glm::mat4& worldFromObject);
 /// Node "Sphere", which pierces node "Torus".
 Scene makeInterpenetration();
 /// Forty spheres, boxes and tori that overlap in all ways; every second one is named "Sdf...".

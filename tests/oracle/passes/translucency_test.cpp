@@ -30,14 +30,7 @@ struct ObjectScene {
   ObjectScene(const DistanceFunction& distance, Box box, int bits, const glm::mat4& worldFromObject = glm::mat4(1)) {
     Material material;
     material.metallic = 0;
-    scene.materials.push_back(material);
-    scene.meshes.push_back(makeBoxMesh(glm::vec3(0.5f)));
-    scene.meshes[0].primitives[0].material = 0;
-    Node node;
-    node.mesh = 0;
-    node.matrix = worldFromObject;
-    scene.nodes.push_back(node);
-    scene.scenes.push_back({"scene", {0}});
+    scene = makeBoxAlone(std::move(material), worldFromObject);
     fields.fields.push_back(makeAnalyticField(distance, box, 64, bits, 2));
     fields.fieldOfNode = {0};
     voxelWorld = fields.fields[0].levels[0].voxelSizeObject * scaleRange(worldFromObject).y;
