@@ -13,21 +13,10 @@ struct FieldReading {
   int cascade;         // whose texels are the scale of what was read; -1: the point is outside all of them
 };
 
-// Samplers of an array may only be chosen by numbers that are the same for all threads; hence the cases.
-vec3 fieldExtent(int cascade) {
-  switch (cascade) {
-    case 0: return vec3(textureSize(worldField[0], 0));
-    case 1: return vec3(textureSize(worldField[1], 0));
-    case 2: return vec3(textureSize(worldField[2], 0));
-    case 3: return vec3(textureSize(worldField[3], 0));
-    case 4: return vec3(textureSize(worldField[4], 0));
-    case 5: return vec3(textureSize(worldField[5], 0));
-    case 6: return vec3(textureSize(worldField[6], 0));
-    default: return vec3(textureSize(worldField[7], 0));
-  }
-}
+vec3 fieldExtent(int cascade) { return field.cascades[cascade].extent.xyz; }
 
-// Texels, interpolated; the volume repeats, so a lattice point is its own place in it.
+// Texels, interpolated; the volume repeats, so a lattice point is its own place in it. Samplers of an array may only be
+// chosen by numbers that are the same for all threads; hence the cases.
 float fieldTexels(int cascade, vec3 lattice) {
   vec3 uv = lattice / fieldExtent(cascade);
   switch (cascade) {

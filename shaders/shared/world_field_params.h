@@ -47,8 +47,9 @@ struct FieldCascade {
   ivec4 window; // xyz: lattice of the window's first texel; w: texels along a side, a power of two
   vec4 texel; // x: metres; y: texels a metre; z: largest magnitude stored, texels; w: half a sheet's thickness, texels
   uvec4 buffers; // first x: texel, y: coarse texel, z: tile in the buffers of all cascades; w: FIELD_* flags
+  vec4 extent;   // xyz: texels along each axis, for readers, whom asking textures for their size costs as much as a read
 };
-SHARED_ASSERT_SIZE(FieldCascade, 48)
+SHARED_ASSERT_SIZE(FieldCascade, 64)
 
 SHARED_CONST uint FIELD_WHOLE = 1; // nothing lies outside the window
 
@@ -60,7 +61,7 @@ struct FieldParams {
   vec4 anchor;  // world
   uvec4 coarse; // x: coarse texels of all cascades
 };
-SHARED_ASSERT_SIZE(FieldParams, 80 * 8 + 48)
+SHARED_ASSERT_SIZE(FieldParams, 96 * 8 + 48)
 
 // What is kept of a tile.
 struct FieldTile {

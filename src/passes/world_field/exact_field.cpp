@@ -98,6 +98,7 @@ void ExactField::prepare(const std::vector<FieldWindow>& windows, const FieldWor
     row.texel = {window.texelSize, 1.0 / window.texelSize, window.rangeTexels(), kSheetHalfTexels};
     row.buffers = {firstTexel, firstTexel / 8, firstTexel / shared::FIELD_TILE_TEXELS,
                    window.isWhole ? shared::FIELD_WHOLE : 0u};
+    row.extent = glm::vec4(glm::vec3(static_cast<float>(window.texels)), 0);
     params.splatMin[i] = glm::ivec4(work.keyBounds[i].min, 0);
     params.splatMax[i] = glm::ivec4(work.keyBounds[i].max, 0);
     firstTexel += static_cast<std::uint32_t>(texelsOf(window));

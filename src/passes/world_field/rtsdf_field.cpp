@@ -69,6 +69,7 @@ void RtsdfField::place(const Box& boundsAnchored) {
   // No distance in the box is longer than its diagonal; rays leave the box, where no reader is.
   cascade.texel = {texelSize, 1.0f / texelSize, glm::length(glm::vec3(extent_)), 0.0f};
   cascade.buffers = {0, 0, 0, shared::FIELD_WHOLE};
+  cascade.extent = glm::vec4(extent_, 0);
   if (cascade.window != cascade_.window || cascade.texel != cascade_.texel) restart();
   cascade_ = cascade;
 }

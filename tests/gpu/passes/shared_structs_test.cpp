@@ -110,7 +110,8 @@ TEST_F(SharedStructs, RowsOfTheWorldField) {
       "WorldInstance", "world_field_params.h", sizeof(shared::WorldInstance),
       {MEMBER(WorldInstance, anchoredFromObject), MEMBER(WorldInstance, triangles), MEMBER(WorldInstance, vertices)});
   expectRows("FieldCascade", "world_field_params.h", sizeof(shared::FieldCascade),
-             {MEMBER(FieldCascade, window), MEMBER(FieldCascade, texel), MEMBER(FieldCascade, buffers)});
+             {MEMBER(FieldCascade, window), MEMBER(FieldCascade, texel), MEMBER(FieldCascade, buffers),
+              MEMBER(FieldCascade, extent)});
   expectRows("TopologyRow", "world_triangles_params.h", sizeof(shared::TopologyRow),
              {MEMBER(TopologyRow, corners), MEMBER(TopologyRow, neighbours)});
   expectRows("GatherChunk", "world_triangles_params.h", sizeof(shared::GatherChunk),

@@ -55,6 +55,7 @@ protected:
       row.window = glm::ivec4(volume.firstTexel, std::max({volume.extent.x, volume.extent.y, volume.extent.z}));
       row.texel = {volume.texelSize, 1 / volume.texelSize, volume.rangeTexels, 0.5};
       row.buffers = {words.size(), 0, 0, volume.isWhole ? shared::FIELD_WHOLE : 0u};
+      row.extent = glm::vec4(volume.extent, 0);
       store(volume, words, static_cast<GLuint>(c));
     }
     params.counts.x = static_cast<std::uint32_t>(volumes.size());
