@@ -8,6 +8,8 @@ struct OcclusionPoint {
   vec3 origin; // anchored; on the surface
   vec3 normal; // of the surface, unit
   float texel; // metres, of the field there
+  // What is read above it, where all cones begin.
+  float firstMetres, firstTexel;
 };
 
 struct OcclusionSearch {
@@ -56,33 +58,30 @@ float openOfTaps(OcclusionPoint point, vec3 direction, float radius) {
   return 1.0 - missing / most;
 }
 
-// A spherical Fibonacci hemisphere (Keinert and others 2015): equal solid angles, weighed by the cosine.
-float openOfTapRays(OcclusionPoint point, float radius) {
-  mat3 basis = basisOfNormal(point.normal);
-  float sum = 0.0, weights = 0.0;
-  for (int i = 0; i < TAP_RAYS; ++i) {
-    float cosine = 1.0 - (float(i) + 0.5) / float(TAP_RAYS), sine = sqrt(1.0 - cosine * cosine);
-    float angle = OCCLUSION_GOLDEN_ANGLE * float(i);
-    sum += cosine * openOfTaps(point, basis * vec3(sine * cos(angle), sine * sin(angle), cosine), radius);
-    weights += cosine;
-  }
-  return sum / weights;
+// One of a spherical Fibonacci hemisphere (Keinert and others 2015): equal solid angles, weighed by the cosine.
+float openOfTapRay(OcclusionPoint point, float radius, int ray) {
+  float cosine = 1.0 - (float(ray) + 0.5) / float(TAP_RAYS), sine = sqrt(1.0 - cosine * cosine);
+  float angle = OCCLUSION_GOLDEN_ANGLE * float(ray);
+  vec3 direction = basisOfNormal(point.normal) * vec3(sine * cos(angle), sine * sin(angle), cosine);
+  return cosine / (0.5 * float(TAP_RAYS)) * openOfTaps(point, direction, radius);
 }
 
 // How free a cone is where it is touched most; as traceRay of lib/field_shadow.glsl, from a surface on.
 float openOfCone(OcclusionPoint point, vec3 direction, float spread, float radius) {
   spread = min(spread, CONE_CLEAR * dot(point.normal, direction));
-  float t = 0.0, free = 1.0;
-  for (int i = 0; i < MOST_OCCLUSION_READS && t < radius; ++i) {
-    float lift = OCCLUSION_LIFT_TEXELS * point.texel * max(1.0 - t / (OCCLUSION_FADE_TEXELS * point.texel), 0.0);
-    FieldReading reading = readForOcclusion(point.origin + lift * point.normal + t * direction);
-    if (reading.cascade < 0 && t > 0.0) break; // outside of the field nothing is known to hide anything
-    float texel = texelOfReading(reading);
+  float t = 0.0, free = 1.0, metres = point.firstMetres, texel = point.firstTexel;
+  for (int i = 0; i < MOST_OCCLUSION_READS; ++i) {
     float width = max(spread * t, LEAST_CONE_TEXELS * texel);
     float depth = min(0.5 * width, SURE_CONE_DEPTH_TEXELS * texel);
-    free = min(free, (reading.distanceWorld + depth) / width);
+    free = min(free, (metres + depth) / width);
     if (free <= 0.0) return 0.0;
-    t += max(reading.distanceWorld, OCCLUSION_LEAST_STEP_TEXELS * texel);
+    t += max(metres, OCCLUSION_LEAST_STEP_TEXELS * texel);
+    if (t >= radius) break;
+    float lift = OCCLUSION_LIFT_TEXELS * point.texel * max(1.0 - t / (OCCLUSION_FADE_TEXELS * point.texel), 0.0);
+    FieldReading reading = readForOcclusion(point.origin + lift * point.normal + t * direction);
+    if (reading.cascade < 0) break; // outside of the field nothing is known to hide anything
+    metres = reading.distanceWorld;
+    texel = texelOfReading(reading);
   }
   return free;
 }
@@ -91,25 +90,31 @@ float openOfCone(OcclusionPoint point, vec3 direction, float spread, float radiu
 // the pattern, so that all of a square together have as many times more.
 //
 // cell  0 to OCCLUSION_PATTERN_SIDE² - 1
-float openOfCones(OcclusionPoint point, OcclusionSearch search, uint cell) {
-  mat3 basis = basisOfNormal(point.normal);
+float openOfSpiralCone(OcclusionPoint point, OcclusionSearch search, uint cell, int cone) {
   const float cells = float(OCCLUSION_PATTERN_SIDE * OCCLUSION_PATTERN_SIDE);
   float turn = 6.2831853 * float(bitfieldReverse(cell) >> 28) / cells, shift = (float(cell) + 0.5) / cells;
-  float spread = CONE_SHARE * inversesqrt(float(search.cones)), sum = 0.0;
-  for (int i = 0; i < search.cones; ++i) {
-    float disk2 = (float(i) + shift) / float(search.cones), angle = OCCLUSION_GOLDEN_ANGLE * float(i) + turn;
-    vec3 direction = basis * vec3(sqrt(disk2) * vec2(cos(angle), sin(angle)), sqrt(1.0 - disk2));
-    sum += openOfCone(point, direction, spread, search.radius);
-  }
-  return sum / float(search.cones);
+  float spread = CONE_SHARE * inversesqrt(float(search.cones));
+  float disk2 = (float(cone) + shift) / float(search.cones), angle = OCCLUSION_GOLDEN_ANGLE * float(cone) + turn;
+  vec3 direction = basisOfNormal(point.normal) * vec3(sqrt(disk2) * vec2(cos(angle), sin(angle)), sqrt(1.0 - disk2));
+  return openOfCone(point, direction, spread, search.radius) / float(search.cones);
 }
 
-// The open share, 0 to 1. As with shadows the cell may be any of the pattern's.
-float openShare(vec3 origin, vec3 normal, OcclusionSearch search, uint cell) {
-  OcclusionPoint point = OcclusionPoint(origin, normal, texelOfReading(readForOcclusion(origin)));
+OcclusionPoint occlusionPoint(vec3 origin, vec3 normal) {
+  float texel = texelOfReading(readForOcclusion(origin));
+  FieldReading first = readForOcclusion(origin + OCCLUSION_LIFT_TEXELS * texel * normal);
+  return OcclusionPoint(origin, normal, texel, first.distanceWorld, texelOfReading(first));
+}
+
+// The open share, 0 to 1, is the sum of so many parts.
+int partsOfOcclusion(OcclusionSearch search) {
+  return search.form == OCCLUSION_TAPS ? 1 : search.form == OCCLUSION_RAYS ? TAP_RAYS : search.cones;
+}
+
+// As with shadows the cell may be any of the pattern's.
+float openPart(OcclusionPoint point, OcclusionSearch search, uint cell, int part) {
   switch (search.form) {
-    case OCCLUSION_TAPS: return openOfTaps(point, normal, search.radius);
-    case OCCLUSION_RAYS: return openOfTapRays(point, search.radius);
-    default: return openOfCones(point, search, cell);
+    case OCCLUSION_TAPS: return openOfTaps(point, point.normal, search.radius);
+    case OCCLUSION_RAYS: return openOfTapRay(point, search.radius, part);
+    default: return openOfSpiralCone(point, search, cell, part);
   }
 }

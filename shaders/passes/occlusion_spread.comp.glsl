@@ -1,9 +1,9 @@
 // From occlusion traced at every scale-th pixel to that of every pixel: the mean over a square as large as the pattern
 // of directions, of what lies on about the same plane (bilateral: distance to the plane, and normal). The square's
 // border moves smoothly, so that nothing steps from pixel to pixel. A pixel like none around it is traced itself.
-#include "lib/field_occlusion.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/occlusion_code.glsl"
+#include "lib/occlusion_group.glsl"
 #include "shared/sdf_params.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -66,6 +66,7 @@ float likeness(PixelPoint pixel, vec3 pointEye, vec3 normal) {
          clamp((dot(pixel.normal, normal) - LEAST_NORMAL_COSINE) / (1.0 - LEAST_NORMAL_COSINE) * 2.0, 0.0, 1.0);
 }
 
+// returns the mean of what is like the pixel; less than 0 where too little is
 float spreadTo(ivec2 pixel, PixelPoint point, ivec2 firstPlace) {
   vec2 part;
   ivec2 corner = squareCorner(pixel, part) - firstPlace;
@@ -81,29 +82,34 @@ float spreadTo(ivec2 pixel, PixelPoint point, ivec2 firstPlace) {
       sum += weight * tracedPoint[i].w;
       weights += weight;
     }
-  if (weights >= LEAST_SUM) return sum / weights;
-  OcclusionSearch search = OcclusionSearch(occlusionForm, occlusionCones, occlusionRadius);
-  return openShare(point.pointEye + frame.eyeAnchored.xyz, point.normal, search, cellOfTraced(pixel));
+  return weights >= LEAST_SUM ? sum / weights : -1.0;
 }
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   vec2 part;
   ivec2 firstPlace = squareCorner(ivec2(gl_WorkGroupID.xy) * GROUP, part);
+  if (gl_LocalInvocationIndex == 0u) askedCount = 0u;
   loadTraced(firstPlace);
-  if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return;
+  bool isPixel = all(lessThan(pixel, ivec2(frame.size.xy)));
   float open = 1.0;
-  if (kindOfId(texelFetch(id, pixel, 0).r) != KIND_NONE) {
+  uint own = 0u;
+  if (isPixel && kindOfId(texelFetch(id, pixel, 0).r) != KIND_NONE) {
     vec3 originEye, directionWorld;
     viewRay(ndcFromPixel(vec2(pixel) + 0.5), originEye, directionWorld);
     float t = rayParameterOfDepth(originEye, directionWorld, texelFetch(depth, pixel, 0).r);
     vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).zw);
     float pixelMetres = 2.0 / (frame.projection.y * float(frame.size.y)) * (frame.projection.z > 0.5 ? 1.0 : t);
     float reach = pixelMetres * float(occlusionScale * OCCLUSION_PATTERN_SIDE);
-    open = spreadTo(pixel, PixelPoint(originEye + t * directionWorld, normal, reach), firstPlace);
+    PixelPoint point = PixelPoint(originEye + t * directionWorld, normal, reach);
+    open = spreadTo(pixel, point, firstPlace);
+    if (open < 0.0) own = askOcclusion(point.pointEye + frame.eyeAnchored.xyz, normal, cellOfTraced(pixel));
   }
+  barrier();
+  traceAsked(OcclusionSearch(occlusionForm, occlusionCones, occlusionRadius));
+  barrier();
 #ifdef COUNTERS_ON
   atomicAdd(counters[COUNTER_OCCLUSION_READS], occlusionReads);
 #endif
-  imageStore(occlusion, pixel, vec4(open, 0.0, 0.0, 0.0));
+  if (isPixel) imageStore(occlusion, pixel, vec4(open < 0.0 ? openOfAsked(own) : open, 0.0, 0.0, 0.0));
 }

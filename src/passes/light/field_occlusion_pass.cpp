@@ -61,7 +61,12 @@ void FieldOcclusionPass::record(const FrameContext& context) {
   traced.bindImage(0, 0, GL_WRITE_ONLY);
   Program& program = context.countersOn ? *countingProgram_ : *program_;
   setSearch(program, context.occlusion);
-  program.dispatchOver({traced.width(), traced.height(), 1});
+  // A thread a cone or a ray; where taps along the normal are all, a thread a place.
+  const glm::ivec2 places = context.occlusion.form == OcclusionForm::Taps ? glm::ivec2(8, 8) : glm::ivec2(4, 2);
+  program.set("occlusionPlaces", places);
+  program.use();
+  glDispatchCompute(ceilDivide(static_cast<std::uint32_t>(traced.width()), static_cast<std::uint32_t>(places.x)),
+                    ceilDivide(static_cast<std::uint32_t>(traced.height()), static_cast<std::uint32_t>(places.y)), 1);
 }
 
 OcclusionSpreadPass::OcclusionSpreadPass(ShaderLibrary& shaders)
