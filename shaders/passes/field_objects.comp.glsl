@@ -65,7 +65,7 @@ FieldObject objectAt(Place place, uint number) {
   return fieldObject(sdfInstances[number], field.anchor.xyz, place.cascade.texel.x);
 }
 
-// Lists those of the next objects that may be nearer than `most` to a texel of the tile.
+// Lists those of the next objects that may be nearer than `most` to a texel of the tile, or around it.
 // returns the first that was not asked
 uint listObjects(Place place, uint first, float most) {
   if (gl_LocalInvocationIndex == 0u) reachingCount = 0u;
@@ -78,7 +78,7 @@ uint listObjects(Place place, uint first, float most) {
       vec4 sphere = spheres[number];
       if (distance(sphere.xyz, place.tileCenter) - sphere.w < reach) {
         float least = max(boxDistance(objectAt(place, number), place.tileCenter) - place.halfDiagonal, 0.0);
-        if (least < most) reaching[atomicAdd(reachingCount, 1u)] = uvec2(floatBitsToUint(least), number);
+        if (least <= most) reaching[atomicAdd(reachingCount, 1u)] = uvec2(floatBitsToUint(least), number);
       }
     }
     barrier();

@@ -210,6 +210,27 @@ TEST_F(SdfObjectsInField, RealOnesAreExact) {
   EXPECT_LE(error.farthestWrongSign, 0.25); // at edges, where it is a matter of taste what lies behind
 }
 
+// Tiles that lie wholly inside a mesh, less deep than in the object around both.
+TEST_F(SdfObjectsInField, AreDeeperThanMeshesWithinThem) {
+  const TestScene scene(sceneOf({{"SdfSphere", makeSphereMesh(1, 64, 128), glm::mat4(1)},
+                                 {"Box", makeBoxMesh(glm::vec3(0.3f)), glm::mat4(1)}}),
+                        "Sdf*", 48);
+  WorldFieldStage stage(scene.scene(), scene.fields(), {1, 64, 0, true});
+  stage.frame(scene.pose(), glm::dvec3(0));
+  const FieldSnapshot field = stage.read();
+  const double h = field.window.texelSize, range = field.window.rangeTexels();
+  ASSERT_LT(8 * h, 0.3) << "no tile lies wholly inside the box";
+  std::size_t within = 0;
+  for (std::size_t i = 0; i < field.distances.size(); ++i) {
+    const glm::dvec3 point = glm::abs(field.centerAnchored(i) + field.anchorWorld);
+    if (std::max({point.x, point.y, point.z}) > 0.3) continue;
+    ++within;
+    const double truth = std::max(glm::length(point) - 1, -range * h) / h;
+    EXPECT_NEAR(field.distances[i], truth, 0.05);
+  }
+  EXPECT_GT(within, 4096u);
+}
+
 // More objects around each tile than a work group has threads, or lists at a time: the least distance to spheres, in
 // closed form.
 TEST_F(SdfObjectsInField, AreExactWhereHundredsOverlap) {
