@@ -20,7 +20,6 @@ layout(location = 1) out vec4 albedo;
 layout(location = 2) out vec4 material;         // metallic, roughness, occlusion, unlit
 layout(location = 3) out vec3 emission;
 layout(location = 4) out uint id;
-layout(location = 5) out uvec2 trace;
 #ifdef MOTION_ON
 layout(location = 6) in vec3 previousPointEye;
 layout(location = 6) out vec4 motion;
@@ -54,7 +53,9 @@ void main() {
   if (usesTexture(m, MATERIAL_NORMAL))
     mapped = (MATERIAL_SAMPLE(m, MATERIAL_NORMAL, uv).xyz * 2.0 - 1.0) * vec3(m.factors.zz, 1.0);
 
-  if (m.emission.w >= 0.0 && base.a < m.emission.w) discard;
+#ifdef ALPHA_MASK
+  if (base.a < m.emission.w) discard;
+#endif
 
   bool flatNormals = (uint(row.ids.z) & DRAW_FLAT_NORMALS) != 0u;
   float side = gl_FrontFacing ? 1.0 : -1.0;
@@ -75,7 +76,6 @@ void main() {
   material = vec4(metallicRoughness, occlusion, float(m.flags.x));
   emission = emitted;
   id = packId(uint(row.ids.x), KIND_MESH);
-  trace = uvec2(0u);
 #ifdef MOTION_ON
   motion = vec4(motionOf(pointEye, previousPointEye), 0.0);
 #endif

@@ -193,6 +193,7 @@ Json countsJson(const FrameStats& stats) {
           {"sdf_visible", stats.sdfVisible},
           {"sdf_near_plane", stats.sdfInside},
           {"mesh_draws", stats.meshDraws},
+          {"mesh_visible", stats.meshVisible},
           {"bricks", stats.bricks},
           {"fragments", stats.counters.fragments},
           {"hits", stats.counters.hits},

@@ -1,9 +1,12 @@
 // What every pass is handed when it records: the scene, the targets, the frame's numbers. No pass owns any of it.
 #pragma once
 
+#include <span>
+
 #include "gpu/buffer.h"
 #include "gpu/texture.h"
 #include "passes/frame_targets.h"
+#include "passes/geometry/visible_draws.h"
 #include "passes/light/occlusion_settings.h"
 #include "passes/light/reflection_settings.h"
 #include "passes/light/shadow_settings.h"
@@ -42,6 +45,7 @@ struct FrameContext {
   BrdfModel brdf = BrdfModel::CookTorrance; ///< of direct light
   TranslucencySettings translucency = {};
   ReflectionSettings reflections = {};
+  std::span<const DrawRun> meshRuns = {}; ///< what the camera sees, in the order in which it is drawn
 };
 
 } // namespace brickfield

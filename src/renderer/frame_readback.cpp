@@ -65,7 +65,7 @@ FrameLayers readFrameLayers(const FrameTargets& targets, const View& view, std::
       const std::uint32_t number = ids[source] >> 2;
       layers.id[p] = kind == shared::KIND_SDF ? nodeOfInstance[number] : static_cast<std::int32_t>(number);
       layers.kind[p] = kind == shared::KIND_MESH ? SurfaceKind::Mesh : SurfaceKind::Sdf;
-      layers.steps[p] = static_cast<float>(trace[2 * source]);
+      if (kind == shared::KIND_SDF) layers.steps[p] = static_cast<float>(trace[2 * source]);
       for (std::size_t light = 0; light < shadowedLights; ++light)
         layers.shadow[light][p] = static_cast<float>(shadow[4 * source + light]) / 255.0f;
     }

@@ -112,7 +112,10 @@ struct Renderer::Parts {
   SceneFields fieldOfNode;                ///< without the fields: which nodes are SDF objects
   std::unique_ptr<FieldKeeper> field;     ///< null until a frame reads the world field
   std::unique_ptr<ShadowMaps> shadowMaps; ///< null until a frame asks for them
-  std::unique_ptr<MeshBoxes> meshBoxes;   ///< the same
+  std::unique_ptr<MeshBoxes> meshBoxes;
+  std::vector<Box> drawBoxes;    ///< of the pose's mesh draws, metres from the anchor
+  glm::dvec3 drawAnchorWorld{0}; ///< in the middle of the pose
+  std::vector<DrawRun> meshRuns; ///< of the last frame
   std::vector<PosedLight> lights;
   std::unique_ptr<Temporal> temporal; ///< null: no temporal antialiasing
   View previousView;                  ///< of the last frame, where temporal has a history
@@ -126,6 +129,8 @@ struct Renderer::Parts {
   shared::FrameParams fillParams() const;
   bool readsField() const;
   const FieldFrame& prepareField();
+  void placeDraws();
+  MeshDraws meshDraws() const { return {scene->batches(), drawBoxes, drawAnchorWorld}; }
   void prepareShadowMaps(const shared::FrameParams& params);
   void prepareTemporal();
   void keepForNextFrame();
@@ -175,14 +180,17 @@ const FieldFrame& Renderer::Parts::prepareField() {
   return field->prepare(pose, view, settings.fieldSlice);
 }
 
+void Renderer::Parts::placeDraws() {
+  if (!meshBoxes) meshBoxes = std::make_unique<MeshBoxes>(*source);
+  drawAnchorWorld = pose.boundsWorld.isEmpty() ? glm::dvec3(0) : glm::dvec3(pose.boundsWorld.center());
+  drawBoxes = meshBoxes->anchored(scene->meshPlaces(), pose, drawAnchorWorld);
+}
+
 void Renderer::Parts::prepareShadowMaps(const shared::FrameParams& params) {
   const bool hasRanges = settings.shadows.method == ShadowMethod::MapsAndField;
   if (!shadowMaps || !(shadowMaps->settings() == settings.shadowMaps) || shadowMaps->hasRanges() != hasRanges)
     shadowMaps = std::make_unique<ShadowMaps>(settings.shadowMaps, hasRanges);
-  if (!meshBoxes) meshBoxes = std::make_unique<MeshBoxes>(*source);
-  const glm::dvec3 anchor = pose.boundsWorld.isEmpty() ? glm::dvec3(0) : glm::dvec3(pose.boundsWorld.center());
-  shadowMaps->prepare(lights, view, pose.boundsWorld, params, scene->sdfInstanceCount(),
-                      {scene->batches(), meshBoxes->anchored(scene->meshPlaces(), pose, anchor), anchor});
+  shadowMaps->prepare(lights, view, pose.boundsWorld, params, scene->sdfInstanceCount(), meshDraws());
 }
 
 // A jitter of its own for each frame; what the frame before left, as long as pictures are of one size.
@@ -347,6 +355,7 @@ void Renderer::setPose(Pose pose) {
   parts_->scene->setPose(*parts_->source, pose);
   parts_->visible.fit(std::max(1u, parts_->scene->sdfInstanceCount()));
   parts_->pose = std::move(pose);
+  parts_->placeDraws();
   parts_->isPosed = true;
 }
 
@@ -384,6 +393,7 @@ void Renderer::render(const View& view) {
   parts.nodeOfInstance.clear();
   for (const shared::SdfInstance& row : parts.scene->sdfInstances()) parts.nodeOfInstance.push_back(row.ids.x);
   parts.prepareTemporal();
+  parts.meshRuns = frontToBack(visibleDraws(parts.meshDraws(), parts.view), parts.meshDraws(), parts.view);
   parts.isFieldInFrame = parts.readsField();
   const FieldFrame* field = parts.isFieldInFrame ? &parts.prepareField() : nullptr;
   const shared::FrameParams params = parts.fillParams();
@@ -410,7 +420,8 @@ void Renderer::render(const View& view) {
                              parts.settings.occlusion,
                              parts.settings.brdf,
                              parts.settings.translucency,
-                             parts.settings.reflections};
+                             parts.settings.reflections,
+                             parts.meshRuns};
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glDisable(GL_BLEND);
   glEnable(GL_FRAMEBUFFER_SRGB); // albedo is stored as sRGB; the other targets are linear and unaffected
@@ -451,6 +462,7 @@ FrameStats Renderer::stats() {
     stats.sdfVisible = commands[shared::BOX_COMMAND_FACING].instances + stats.sdfInside;
   }
   stats.meshDraws = parts.scene->meshDrawCount();
+  for (const DrawRun& run : parts.meshRuns) stats.meshVisible += run.drawCount;
   stats.bricks = parts.scene->atlas().brickCount();
   stats.bytes = {parts.scene->atlas().bytes(),
                  parts.scene->meshes().bytes(),

@@ -50,6 +50,7 @@ struct FrameStats {
   std::uint32_t sdfVisible = 0; ///< boxes drawn
   std::uint32_t sdfInside = 0;  ///< of them, with the near plane through the box
   std::uint32_t meshDraws = 0;
+  std::uint32_t meshVisible = 0; ///< of them, drawn for the camera
   std::uint32_t bricks = 0;
   std::uint32_t shadowMapLayers = 0;
   std::uint32_t shadowMapDraws = 0; ///< of meshes, in all layers

@@ -1,4 +1,5 @@
-// Batches are sorted by material, so that state changes are few; a batch is one instanced draw.
+// What the camera sees, nearest first; a run of a batch is one instanced draw. Materials that cut no holes have a
+// program of their own, so that depth is tested before shading.
 #include "passes/geometry/mesh_pass.h"
 
 #include "passes/post/temporal.h"
@@ -14,9 +15,16 @@ ProgramSource meshSource(const char* label, std::map<std::string, std::string> d
 }
 } // namespace
 
+MeshPass::Programs::Programs(ShaderLibrary& shaders, const char* label, const char* maskedLabel,
+                             std::map<std::string, std::string> defines)
+    : opaque(shaders.load(meshSource(label, defines))) {
+  defines.emplace("ALPHA_MASK", "1");
+  masked = shaders.load(meshSource(maskedLabel, std::move(defines)));
+}
+
 MeshPass::MeshPass(ShaderLibrary& shaders)
-    : program_(shaders.load(meshSource("mesh", {}))),
-      motionProgram_(shaders.load(meshSource("mesh_motion", {{"MOTION_ON", "1"}}))) {}
+    : still_(shaders, "mesh", "mesh_masked", {}),
+      moving_(shaders, "mesh_motion", "mesh_motion_masked", {{"MOTION_ON", "1"}}) {}
 
 PassDeclaration MeshPass::declare() {
   return {"mesh",
@@ -26,9 +34,31 @@ PassDeclaration MeshPass::declare() {
           {{Resource::GBuffer, Access::Attachment}, {Resource::Depth, Access::Attachment}}};
 }
 
+void MeshPass::draw(const FrameContext& context, const DrawRun& run) {
+  const MeshBatch& batch = context.scene.batches()[run.batch];
+  const MaterialTable& materials = context.scene.materials();
+  const int material = batch.primitive.material;
+  const Programs& programs = context.temporal ? moving_ : still_;
+  const Program* program = (materials.isMasked(material) ? programs.masked : programs.opaque).get();
+  if (program != used_) program->use(), used_ = program;
+  if (material != boundMaterial_) {
+    materials.bindTextures(boundMaterial_ = material);
+    if (materials.isDoubleSided(material))
+      glDisable(GL_CULL_FACE);
+    else
+      glEnable(GL_CULL_FACE);
+  }
+  // A mirror turns every triangle around.
+  glFrontFace(batch.mirrored ? GL_CW : GL_CCW);
+  glDrawElementsInstancedBaseVertexBaseInstance(
+      GL_TRIANGLES, static_cast<GLsizei>(batch.primitive.indexCount), GL_UNSIGNED_INT,
+      reinterpret_cast<const void*>(std::size_t{batch.primitive.firstIndex} * sizeof(std::uint32_t)),
+      static_cast<GLsizei>(run.drawCount), static_cast<GLint>(batch.baseVertex), run.firstDraw);
+}
+
 void MeshPass::record(const FrameContext& context) {
-  const std::vector<MeshBatch>& batches = context.scene.batches();
-  if (batches.empty()) return;
+  const std::span<const DrawRun> runs = context.meshRuns;
+  if (runs.empty()) return;
   const bool reversed = context.drawOrder == DrawOrder::BoxesFirstAllReversed;
   (context.temporal ? context.temporal->gbuffer : context.targets.gbuffer).bind();
   if (context.temporal) context.temporal->table.bindMeshes(context.scene);
@@ -36,28 +66,16 @@ void MeshPass::record(const FrameContext& context) {
   glDepthMask(GL_TRUE);
   glDepthFunc(reversed ? GL_GEQUAL : GL_GREATER);
   glCullFace(GL_BACK);
-  (context.temporal ? motionProgram_ : program_)->use();
   context.scene.meshes().vertexArray().bind();
   context.scene.bindMeshDraws();
   context.scene.materials().bindRows();
-  int boundMaterial = -2;
-  for (std::size_t i = 0; i < batches.size(); ++i) {
-    const MeshBatch& batch = batches[reversed ? batches.size() - 1 - i : i];
-    if (batch.primitive.material != boundMaterial) {
-      boundMaterial = batch.primitive.material;
-      context.scene.materials().bindTextures(boundMaterial);
-      if (context.scene.materials().isDoubleSided(boundMaterial))
-        glDisable(GL_CULL_FACE);
-      else
-        glEnable(GL_CULL_FACE);
-    }
-    // A mirror turns every triangle around.
-    glFrontFace(batch.mirrored ? GL_CW : GL_CCW);
-    glDrawElementsInstancedBaseVertexBaseInstance(
-        GL_TRIANGLES, static_cast<GLsizei>(batch.primitive.indexCount), GL_UNSIGNED_INT,
-        reinterpret_cast<const void*>(std::size_t{batch.primitive.firstIndex} * sizeof(std::uint32_t)),
-        static_cast<GLsizei>(batch.drawCount), static_cast<GLint>(batch.baseVertex), batch.firstDraw);
-  }
+  // Steps of rays are SDF objects' alone: what is not written costs no bandwidth.
+  constexpr GLuint kTrace = 5;
+  glColorMaski(kTrace, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  boundMaterial_ = kNoMaterial;
+  used_ = nullptr;
+  for (std::size_t i = 0; i < runs.size(); ++i) draw(context, runs[reversed ? runs.size() - 1 - i : i]);
+  glColorMaski(kTrace, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glFrontFace(GL_CCW);
   glDisable(GL_CULL_FACE);
   for (GLuint unit = 0; unit < shared::MATERIAL_TEXTURES; ++unit) Sampler::unbind(shared::kMaterialTextureUnit + unit);

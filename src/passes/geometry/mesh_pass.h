@@ -1,6 +1,10 @@
 // Triangle meshes into the G-buffer, by the fixed function's rasterizer.
 #pragma once
 
+#include <map>
+#include <memory>
+#include <string>
+
 #include "gpu/shader_library.h"
 #include "passes/frame_context.h"
 #include "passes/pass.h"
@@ -14,8 +18,17 @@ public:
   void record(const FrameContext& context);
 
 private:
-  std::shared_ptr<Program> program_;
-  std::shared_ptr<Program> motionProgram_; ///< the same with motion vectors
+  struct Programs {
+    Programs(ShaderLibrary& shaders, const char* label, const char* maskedLabel,
+             std::map<std::string, std::string> defines);
+    std::shared_ptr<Program> opaque, masked;
+  };
+  void draw(const FrameContext& context, const DrawRun& run);
+
+  Programs still_, moving_; ///< without and with motion vectors
+  static constexpr int kNoMaterial = -2;
+  int boundMaterial_ = kNoMaterial; ///< of this record, as the next
+  const Program* used_ = nullptr;
 };
 
 /// Empties the G-buffer: far depth, no object.

@@ -48,7 +48,7 @@ void ShadowMapPass::drawMeshes(const FrameContext& context, int layer) {
   scene.materials().bindRows();
   int boundMaterial = -2;
   const Program* used = nullptr;
-  for (const CasterRun& run : context.shadowMaps->casters(layer)) {
+  for (const DrawRun& run : context.shadowMaps->casters(layer)) {
     const MeshBatch& batch = scene.batches()[run.batch];
     const int material = batch.primitive.material;
     const bool isMasked = scene.materials().isMasked(material);

@@ -43,7 +43,7 @@ ShadowMaps::ShadowMaps(const ShadowMapSettings& settings, bool hasRanges)
       keptCommands_("shadow_map_commands", kCommandsBytes * shared::MOST_SHADOW_LAYERS) {}
 
 void ShadowMaps::prepare(const std::vector<PosedLight>& lights, const View& camera, const Box& boundsWorld,
-                         const shared::FrameParams& frame, std::uint32_t sdfInstances, const ShadowCasters& casters) {
+                         const shared::FrameParams& frame, std::uint32_t sdfInstances, const MeshDraws& casters) {
   const Box bounds = boundsWorld.isEmpty() ? Box{glm::vec3(-1), glm::vec3(1)} : boundsWorld;
   params_ = {};
   views_.clear();
@@ -59,7 +59,7 @@ void ShadowMaps::prepare(const std::vector<PosedLight>& lights, const View& came
   for (int layer = 0; layer < layerCount(); ++layer) {
     const ShadowView& view = views_[static_cast<std::size_t>(layer)];
     params_.layers[layer] = layerOf(view);
-    casters_.push_back(castersOf(casters, view.view));
+    casters_.push_back(visibleDraws(casters, view.view));
     shared::FrameParams params = frame;
     setViewParams(params, view.view);
     viewParams_.upload(kViewStrideBytes * static_cast<std::size_t>(layer), std::vector{params});
@@ -71,8 +71,8 @@ void ShadowMaps::prepare(const std::vector<PosedLight>& lights, const View& came
 
 std::uint32_t ShadowMaps::drawCount() const {
   std::uint32_t sum = 0;
-  for (const std::vector<CasterRun>& runs : casters_)
-    for (const CasterRun& run : runs) sum += run.drawCount;
+  for (const std::vector<DrawRun>& runs : casters_)
+    for (const DrawRun& run : runs) sum += run.drawCount;
   return sum;
 }
 

@@ -8,7 +8,7 @@
 #include "gpu/buffer.h"
 #include "gpu/framebuffer.h"
 #include "gpu/texture.h"
-#include "passes/light/shadow_casters.h"
+#include "passes/geometry/visible_draws.h"
 #include "passes/visible_boxes.h"
 #include "scene/shadow_views.h"
 #include "shared/frame_params.h"
@@ -39,7 +39,7 @@ public:
   /// casters        of which each view draws those that it may see
   /// error          Failure: no memory
   void prepare(const std::vector<PosedLight>& lights, const View& camera, const Box& boundsWorld,
-               const shared::FrameParams& frame, std::uint32_t sdfInstances, const ShadowCasters& casters);
+               const shared::FrameParams& frame, std::uint32_t sdfInstances, const MeshDraws& casters);
 
   const ShadowMapSettings& settings() const { return settings_; }
   bool hasRanges() const { return hasRanges_; }
@@ -50,7 +50,7 @@ public:
   void bindView(int layer) const;
   const Framebuffer& framebuffer(int layer) const { return framebuffers_[static_cast<std::size_t>(layer)]; }
   const VisibleBoxes& visible() const { return visible_; }
-  const std::vector<CasterRun>& casters(int layer) const { return casters_[static_cast<std::size_t>(layer)]; }
+  const std::vector<DrawRun>& casters(int layer) const { return casters_[static_cast<std::size_t>(layer)]; }
   /// Of meshes, over all layers.
   std::uint32_t drawCount() const;
   /// Keeps what the boxes' commands say of a layer, for boxCount.
@@ -78,7 +78,7 @@ private:
   shared::ShadowMapParams params_{};
   Texture depths_, moments_, alongX_, ranges_;
   std::vector<Framebuffer> framebuffers_;
-  std::vector<std::vector<CasterRun>> casters_; ///< a layer each
+  std::vector<std::vector<DrawRun>> casters_; ///< a layer each
   Buffer viewParams_, mapParams_, keptCommands_;
   VisibleBoxes visible_;
 };

@@ -1,5 +1,5 @@
-// What a light's view leaves out is nothing that it could see: against rays through the boxes' corners and middles.
-#include "passes/light/shadow_casters.h"
+// What a view leaves out is nothing that it could see: against rays through the boxes' corners and middles.
+#include "passes/geometry/visible_draws.h"
 
 #include <random>
 
@@ -34,7 +34,7 @@ struct Strewn {
   std::vector<bool> drawn(const View& view) const {
     std::vector<bool> isDrawn(boxes.size(), false);
     std::uint32_t next = 0;
-    for (const CasterRun& run : castersOf({batches, boxes, anchor}, view)) {
+    for (const DrawRun& run : visibleDraws({batches, boxes, anchor}, view)) {
       const MeshBatch& batch = batches.at(run.batch);
       EXPECT_GE(run.firstDraw, next) << "in order";
       EXPECT_GE(run.firstDraw, batch.firstDraw);
@@ -61,7 +61,7 @@ struct Strewn {
   }
 };
 
-TEST(ShadowCasters, NothingThatAViewSeesIsLeftOut) {
+TEST(VisibleDraws, NothingThatAViewSeesIsLeftOut) {
   const Strewn strewn;
   const View camera = makePerspectiveView(glm::vec3(strewn.anchor) + glm::vec3(-3, 1, 5), glm::vec3(strewn.anchor),
                                           0.7f, 0.1f, {320, 180});
@@ -87,15 +87,33 @@ TEST(ShadowCasters, NothingThatAViewSeesIsLeftOut) {
 }
 
 // A sun's own square holds what it holds however far up or down it is: nothing is behind a sun.
-TEST(ShadowCasters, WholeScenesAreOneRunABatch) {
+TEST(VisibleDraws, WholeScenesAreOneRunABatch) {
   const Strewn strewn;
   const Box bounds = strewn.bounds();
   const View view =
       makeParallelView(glm::dvec3(bounds.center()) + glm::dvec3(0, 20, 0), {0, -1, 0}, 20, 0, 40, {64, 64});
-  const std::vector<CasterRun> runs = castersOf({strewn.batches, strewn.boxes, strewn.anchor}, view);
+  const std::vector<DrawRun> runs = visibleDraws({strewn.batches, strewn.boxes, strewn.anchor}, view);
   ASSERT_EQ(runs.size(), 3u) << "the box of nothing parts the first batch";
   EXPECT_EQ(runs[0].drawCount + runs[1].drawCount + runs[2].drawCount, 199u);
   EXPECT_EQ(runs[2].batch, 2u);
+}
+
+// A room around the eye comes last; within a step the batches keep their order.
+TEST(VisibleDraws, WhatHidesComesFirst) {
+  const std::vector<MeshBatch> batches{
+      {{}, 0, 0, 1, false}, {{}, 0, 1, 1, false}, {{}, 0, 2, 2, false}, {{}, 0, 4, 1, false}};
+  const glm::dvec3 anchor(100, 0, 0);
+  std::vector<Box> boxes{{{-9, -9, -10}, {9, 9, 9}}};
+  for (const float z : {-2.1f, -2.0f, -1.9f, -0.9f}) boxes.push_back({{-0.1f, -0.1f, z}, {0.1f, 0.1f, z + 0.1f}});
+  const View view = makePerspectiveView(anchor, glm::vec3(anchor) + glm::vec3(0, 0, -1), 0.7f, 0.1f, {320, 180});
+  const MeshDraws draws{batches, boxes, anchor};
+  const std::vector<DrawRun> runs = frontToBack(visibleDraws(draws, view), draws, view);
+  ASSERT_EQ(runs.size(), 4u);
+  EXPECT_EQ(runs[0].batch, 3u);
+  EXPECT_EQ(runs[1].batch, 1u);
+  EXPECT_EQ(runs[2].batch, 2u);
+  EXPECT_EQ(runs[2].drawCount, 2u);
+  EXPECT_EQ(runs[3].batch, 0u);
 }
 
 } // namespace
