@@ -8,8 +8,6 @@ struct OcclusionPoint {
   vec3 origin; // anchored; on the surface
   vec3 normal; // of the surface, unit
   float texel; // metres, of the field there
-  // What is read above it, where all cones begin.
-  float firstMetres, firstTexel;
 };
 
 struct OcclusionSearch {
@@ -69,19 +67,17 @@ float openOfTapRay(OcclusionPoint point, float radius, int ray) {
 // How free a cone is where it is touched most; as traceRay of lib/field_shadow.glsl, from a surface on.
 float openOfCone(OcclusionPoint point, vec3 direction, float spread, float radius) {
   spread = min(spread, CONE_CLEAR * dot(point.normal, direction));
-  float t = 0.0, free = 1.0, metres = point.firstMetres, texel = point.firstTexel;
-  for (int i = 0; i < MOST_OCCLUSION_READS; ++i) {
-    float width = max(spread * t, LEAST_CONE_TEXELS * texel);
-    float depth = min(0.5 * width, SURE_CONE_DEPTH_TEXELS * texel);
-    free = min(free, (metres + depth) / width);
-    if (free <= 0.0) return 0.0;
-    t += max(metres, OCCLUSION_LEAST_STEP_TEXELS * texel);
-    if (t >= radius) break;
+  float t = 0.0, free = 1.0;
+  for (int i = 0; i < MOST_OCCLUSION_READS && t < radius; ++i) {
     float lift = OCCLUSION_LIFT_TEXELS * point.texel * max(1.0 - t / (OCCLUSION_FADE_TEXELS * point.texel), 0.0);
     FieldReading reading = readForOcclusion(point.origin + lift * point.normal + t * direction);
-    if (reading.cascade < 0) break; // outside of the field nothing is known to hide anything
-    metres = reading.distanceWorld;
-    texel = texelOfReading(reading);
+    if (reading.cascade < 0 && t > 0.0) break; // outside of the field nothing is known to hide anything
+    float texel = texelOfReading(reading);
+    float width = max(spread * t, LEAST_CONE_TEXELS * texel);
+    float depth = min(0.5 * width, SURE_CONE_DEPTH_TEXELS * texel);
+    free = min(free, (reading.distanceWorld + depth) / width);
+    if (free <= 0.0) return 0.0;
+    t += max(reading.distanceWorld, OCCLUSION_LEAST_STEP_TEXELS * texel);
   }
   return free;
 }
@@ -100,9 +96,7 @@ float openOfSpiralCone(OcclusionPoint point, OcclusionSearch search, uint cell, 
 }
 
 OcclusionPoint occlusionPoint(vec3 origin, vec3 normal) {
-  float texel = texelOfReading(readForOcclusion(origin));
-  FieldReading first = readForOcclusion(origin + OCCLUSION_LIFT_TEXELS * texel * normal);
-  return OcclusionPoint(origin, normal, texel, first.distanceWorld, texelOfReading(first));
+  return OcclusionPoint(origin, normal, texelOfReading(readForOcclusion(origin)));
 }
 
 // The open share, 0 to 1, is the sum of so many parts.

@@ -1,5 +1,5 @@
-// The open shares of some points, asked by a group together: a thread a part, because one after the other a point's parts
-// take as long as they are many.
+// The open shares of the few points that a group asks for, a thread a part: one after the other a point's parts take as
+// long as they are many, which is right where there are points enough for all threads.
 #include "lib/field_occlusion.glsl"
 
 const uint OCCLUSION_GROUP = 64u; // threads

@@ -10,10 +10,11 @@ namespace brickfield {
 
 namespace {
 
-ProgramSource programOf(const std::string& name, const char* path, bool counts) {
+ProgramSource programOf(std::string name, const char* path, bool counts, bool isSideBySide = false) {
   std::map<std::string, std::string> defines;
-  if (counts) defines = {{"COUNTERS_ON", "1"}};
-  return {counts ? name + "_counting" : name, {{GL_COMPUTE_SHADER, path}}, std::move(defines), {}};
+  if (isSideBySide) defines.emplace("SIDE_BY_SIDE", "1"), name += "_side_by_side";
+  if (counts) defines.emplace("COUNTERS_ON", "1"), name += "_counting";
+  return {std::move(name), {{GL_COMPUTE_SHADER, path}}, std::move(defines), {}};
 }
 
 int formNumber(OcclusionForm form) {
@@ -42,9 +43,12 @@ void bindInputs(const FrameContext& context) {
 
 } // namespace
 
-FieldOcclusionPass::FieldOcclusionPass(ShaderLibrary& shaders)
-    : program_(shaders.load(programOf("field_occlusion", "passes/field_occlusion.comp.glsl", false))),
-      countingProgram_(shaders.load(programOf("field_occlusion", "passes/field_occlusion.comp.glsl", true))) {}
+FieldOcclusionPass::FieldOcclusionPass(ShaderLibrary& shaders) {
+  for (const bool isSideBySide : {false, true})
+    for (const bool counts : {false, true})
+      programs_[isSideBySide][counts] =
+          shaders.load(programOf("field_occlusion", "passes/field_occlusion.comp.glsl", counts, isSideBySide));
+}
 
 PassDeclaration FieldOcclusionPass::declare() {
   return {"field_occlusion",
@@ -59,14 +63,13 @@ void FieldOcclusionPass::record(const FrameContext& context) {
   bindInputs(context);
   const Texture& traced = context.targets.occlusionTraced;
   traced.bindImage(0, 0, GL_WRITE_ONLY);
-  Program& program = context.countersOn ? *countingProgram_ : *program_;
+  // At every fourth pixel there are too few places for a thread each, and one cone after the other takes its time.
+  const bool isSideBySide = context.occlusion.scale == 4 && context.occlusion.form == OcclusionForm::Cones;
+  Program& program = *programs_[isSideBySide][context.countersOn];
   setSearch(program, context.occlusion);
-  // A thread a cone or a ray; where taps along the normal are all, a thread a place.
-  const glm::ivec2 places = context.occlusion.form == OcclusionForm::Taps ? glm::ivec2(8, 8) : glm::ivec2(4, 2);
-  program.set("occlusionPlaces", places);
-  program.use();
-  glDispatchCompute(ceilDivide(static_cast<std::uint32_t>(traced.width()), static_cast<std::uint32_t>(places.x)),
-                    ceilDivide(static_cast<std::uint32_t>(traced.height()), static_cast<std::uint32_t>(places.y)), 1);
+  const glm::ivec2 places = isSideBySide ? glm::ivec2(4, 2) : glm::ivec2(8, 8); // of a group of 8 by 8 threads
+  const glm::ivec2 groups = (glm::ivec2(traced.width(), traced.height()) + places - 1) / places;
+  program.dispatchOver({8 * groups, 1});
 }
 
 OcclusionSpreadPass::OcclusionSpreadPass(ShaderLibrary& shaders)

@@ -15,7 +15,7 @@ public:
   void record(const FrameContext& context);
 
 private:
-  std::shared_ptr<Program> program_, countingProgram_;
+  std::shared_ptr<Program> programs_[2][2]; ///< cones one after the other or side by side; counting or not
 };
 
 class OcclusionSpreadPass {
