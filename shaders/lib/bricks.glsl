@@ -38,12 +38,8 @@ float boundOfCell(uint cell) {
 
 // Filtered distance in level voxels inside a brick; pointBrick in [0,7].
 float brickDistance(SdfLevel level, uint slot, vec3 pointBrick) {
-  if (isR16(level)) {
-    ivec3 size = textureSize(distance_r16, 0);
-    return textureLod(distance_r16, (vec3(texelOfSlot(slot)) + pointBrick + 0.5) / vec3(size), 0.0).r * level.scale.y;
-  }
-  ivec3 size = textureSize(distance_r8, 0);
-  return textureLod(distance_r8, (vec3(texelOfSlot(slot)) + pointBrick + 0.5) / vec3(size), 0.0).r * level.scale.y;
+  vec3 uvw = (vec3(texelOfSlot(slot)) + pointBrick + 0.5) * vec3(vec2(BRICK_POOL_TEXEL), level.scale.w);
+  return (isR16(level) ? textureLod(distance_r16, uvw, 0.0).r : textureLod(distance_r8, uvw, 0.0).r) * level.scale.y;
 }
 
 // The eight stored distances around a voxel: x fastest, a = z 0, b = z 1.

@@ -34,6 +34,21 @@ void BrickAtlas::reserve(const std::vector<BrickField>& fields) {
   distances16_.fit(bricks16);
   attributes_.fit(bricksWithAttributes);
   indirection_.growTo((cells_.end() + cells) * sizeof(std::uint32_t));
+  renewRows();
+}
+
+void BrickAtlas::uploadRows(HeldField& held) {
+  for (std::size_t i = 0; i < held.rows.size(); ++i)
+    held.rows[i].scale.w = 1.0f / static_cast<float>(held.levels[i].isR16 ? depth16_ : depth8_);
+  levelTable_.upload(std::size_t{held.resident.firstLevel} * sizeof(shared::SdfLevel), held.rows);
+}
+
+void BrickAtlas::renewRows() {
+  const int depth8 = distances8_.texture(0).depth(), depth16 = distances16_.texture(0).depth();
+  if (depth8 == depth8_ && depth16 == depth16_) return;
+  depth8_ = depth8;
+  depth16_ = depth16;
+  for (auto& [id, held] : fields_) uploadRows(held);
 }
 
 std::uint32_t BrickAtlas::addCells(const BrickLevel& level, std::uint32_t firstSlot, Allocation& held) {
@@ -82,12 +97,12 @@ BrickAtlas::FieldId BrickAtlas::add(const BrickField& field) {
   held.resident.voxelSizeObject = field.levels[0].voxelSizeObject;
   held.resident.originObject = field.originObject;
   held.resident.boundsObject = field.boundsObject;
-  std::vector<shared::SdfLevel> rows;
   for (const BrickLevel& level : field.levels)
-    rows.push_back(
+    held.rows.push_back(
         addLevel(level, field.levels[0].voxelSizeObject / level.voxelSizeObject, held.levels.emplace_back()));
   levelTable_.growTo(std::size_t{levelRows_.end()} * sizeof(shared::SdfLevel));
-  levelTable_.upload(std::size_t{held.resident.firstLevel} * sizeof(shared::SdfLevel), rows);
+  renewRows();
+  uploadRows(held);
   const FieldId id = nextId_++;
   fields_.emplace(id, std::move(held));
   return id;

@@ -53,8 +53,12 @@ private:
   struct HeldField {
     ResidentField resident;
     std::vector<HeldLevel> levels;
+    std::vector<shared::SdfLevel> rows;
   };
   shared::SdfLevel addLevel(const BrickLevel& level, float scale, HeldLevel& held);
+  void uploadRows(HeldField& held);
+  /// Rows know how deep their pool is: all are told again when one has grown.
+  void renewRows();
   std::uint32_t addCells(const BrickLevel& level, std::uint32_t firstSlot, Allocation& held);
 
   BrickPool distances8_, distances16_, attributes_;
@@ -62,6 +66,7 @@ private:
   RangeAllocator levelRows_, cells_;
   std::unordered_map<FieldId, HeldField> fields_;
   FieldId nextId_ = 1;
+  int depth8_ = 0, depth16_ = 0; ///< of the pools, as the rows know them
 };
 
 } // namespace brickfield

@@ -92,6 +92,7 @@ protected:
       EXPECT_EQ(row.scale.x, 1.0f / static_cast<float>(1 << l));
       EXPECT_EQ(row.scale.y, level.rangeVoxels);
       EXPECT_EQ(row.scale.z, is16 ? 1.0f : 0.0f);
+      EXPECT_EQ(row.scale.w, 1.0f / static_cast<float>((is16 ? r16 : r8).size.z));
       ASSERT_EQ(row.attributes.x != shared::SDF_NO_ATTRIBUTES, !level.baseColor.empty());
       for (std::size_t c = 0; c < level.indirection.size(); ++c) {
         const IndirectionCell cell{level.indirection[c]};
