@@ -12,6 +12,7 @@ namespace brickfield {
 
 namespace {
 constexpr double kUncertainTurns = 0.015; // what clusters may be off by, and a half
+constexpr double kFarExcess = 0.45;       // almost no turn or almost a whole one: no hole is near
 } // namespace
 
 SolidWinding::SolidWinding(const TriangleSoup& soup, const MeshTopology& topology,
@@ -41,28 +42,54 @@ std::size_t SolidWinding::bytes() const {
   return sum;
 }
 
+double SolidWinding::closedTurns(glm::dvec3 point) const {
+  return closed_ ? static_cast<double>(closed_->winding.at(point)) : 0.0;
+}
+
 double SolidWinding::excess(glm::dvec3 point, double exactTurns) const {
-  const double closed = closed_ ? static_cast<double>(closed_->winding.at(point)) : 0.0;
+  const double closed = closedTurns(point);
   if (!open_) return std::abs(closed) >= 0.5 ? HUGE_VAL : -HUGE_VAL;
   if (!signless_ && std::abs(closed) >= 0.5) return HUGE_VAL;
   // But for whole turns the rims know better.
   const double turns = static_cast<double>(open_->winding.at(point)) + (signless_ ? std::round(closed) : 0.0);
-  const auto excessOf = [&](double sum) { return (signless_ ? std::abs(sum) : sum) - 0.5; };
   if (std::abs(excessOf(turns)) > (rims_->areMany() ? std::min(kUncertainTurns, exactTurns) : exactTurns))
     return excessOf(turns);
   const double fraction = rims_->fractionAt(point);
   return excessOf(fraction + std::round(turns - fraction));
 }
 
-double SolidWinding::leastExcess(glm::dvec3 point) const {
-  return rims_ && !rims_->areMany() ? std::abs(rims_->fractionAt(point) - 0.5) : 0.0;
+double SolidWinding::excessBy(glm::dvec3 point, double fraction) const {
+  const double closed = closedTurns(point);
+  if (!signless_ && std::abs(closed) >= 0.5) return HUGE_VAL;
+  const double turns = static_cast<double>(open_->winding.at(point)) + (signless_ ? std::round(closed) : 0.0);
+  return excessOf(fraction + std::round(turns - fraction));
+}
+
+double SolidWinding::membraneDistance(glm::dvec3 point, double limit) const {
+  if (!rims_) return HUGE_VAL;
+  const bool areMany = rims_->areMany();
+  const WindingAround here = areMany ? WindingAround{} : rims_->fractionAndSlopeAt(point);
+  const double least = areMany ? 0.0 : std::abs(here.fraction - 0.5); // whole turns can only be added to it
+  if (least > kFarExcess) return HUGE_VAL;
+  const double steepness = std::max(glm::length(areMany ? rims_->slopeAt(point) : here.slope), 1e-12);
+  if (least > limit * steepness) return HUGE_VAL;
+  const double excess = std::abs(areMany ? this->excess(point) : excessBy(point, here.fraction));
+  return excess > kFarExcess || excess > limit * steepness ? HUGE_VAL : excess / steepness;
+}
+
+bool isFarFromMembranes(const WindingAround& around, glm::dvec3 offset, double radius, double limit) {
+  const double least = around.leastFromHalf(offset, radius);
+  return least > kFarExcess || least > limit * around.steepest(glm::length(offset) + radius);
 }
 
 bool SolidWinding::isSteady(glm::dvec3 center, double radius) const {
   if (!rims_) return true;
+  if (!rims_->areMany()) {
+    const std::optional<WindingAround> around = rims_->around(center, radius);
+    return around && around->leastFromHalf(glm::dvec3(0.0), radius) > 0;
+  }
   const double change = rims_->mostChange(center, radius);
   if (change >= 0.5) return false;
-  if (!rims_->areMany()) return std::abs(rims_->fractionAt(center) - 0.5) > change;
   const double turns = static_cast<double>(open_->winding.at(center));
   return std::abs(turns - std::floor(turns) - 0.5) > change + kUncertainTurns;
 }

@@ -31,8 +31,10 @@ public:
   double excess(glm::dvec3 point) const { return excess(point, HUGE_VAL); }
   bool isInside(glm::dvec3 point) const { return excess(point, kUnclearTurns) >= 0; }
   bool isSteady(glm::dvec3 center, double radius) const;
-  double leastExcess(glm::dvec3 point) const;
-  glm::dvec3 slopeAt(glm::dvec3 point) const { return rims_ ? rims_->slopeAt(point) : glm::dvec3(0.0); }
+  std::optional<WindingAround> around(glm::dvec3 center, double radius) const {
+    return rims_ ? rims_->around(center, radius) : std::nullopt;
+  }
+  double membraneDistance(glm::dvec3 point, double limit) const;
   /// True where the answer can change without a surface between: open triangles.
   bool hasOpenTriangles() const { return open_.has_value(); }
   /// Of moments, and of hierarchies besides the whole one.
@@ -42,6 +44,11 @@ private:
   static constexpr double kUnclearTurns = 0.15; ///< what coarse clusters may be off by, and a half
   /// Exact where it is within so many turns of zero.
   double excess(glm::dvec3 point, double exactTurns) const;
+  /// By the exact fraction of the open triangles' number.
+  double excessBy(glm::dvec3 point, double fraction) const;
+  /// Of closed ones. Infinite where open ones do not matter.
+  double closedTurns(glm::dvec3 point) const;
+  double excessOf(double turns) const { return (signless_ ? std::abs(turns) : turns) - 0.5; }
 
   struct Part {
     std::unique_ptr<MeshHierarchy> hierarchy; ///< nothing where it is the whole one
@@ -51,6 +58,11 @@ private:
   std::optional<Rims> rims_; ///< of the open ones
   bool signless_;
 };
+
+/// Whether InsideTest::membraneDistance is infinite in all of a ball.
+///
+/// offset, radius  of the ball; it lies within that of `around`
+bool isFarFromMembranes(const WindingAround& around, glm::dvec3 offset, double radius, double limit);
 
 class InsideTest {
 public:
@@ -66,10 +78,18 @@ public:
   /// half, which is smooth wherever there is no triangle; infinite (either way) where only a triangle could change the
   /// answer. Near one half to 1e-9; elsewhere, with very many rim edges, to 0.01.
   double excess(glm::dvec3 point) const;
-  /// At most the absolute excess of open triangles, by their rims alone.
-  double leastExcess(glm::dvec3 point) const { return winding_ ? winding_->leastExcess(point) : 0.0; }
-  /// Of excess, per unit of soup space, either way; zero where only triangles change it.
-  glm::dvec3 slopeAt(glm::dvec3 point) const { return winding_ ? winding_->slopeAt(point) : glm::dvec3(0.0); }
+  /// The open triangles' winding number in a ball, by their rims alone: where it keeps to one side of one half, points
+  /// that can be joined without crossing a triangle have the same answer. Nothing where that is not known: a rim comes
+  /// into the ball, there are none or very many.
+  std::optional<WindingAround> around(glm::dvec3 center, double radius) const {
+    return winding_ ? winding_->around(center, radius) : std::nullopt;
+  }
+  /// How far a point is from where the answer changes although no triangle is there, to first order: excess by slope.
+  ///
+  /// returns  soup space; infinite beyond limit or where the number is almost whole
+  double membraneDistance(glm::dvec3 point, double limit) const {
+    return winding_ ? winding_->membraneDistance(point, limit) : HUGE_VAL;
+  }
   /// True where points that can be joined within a ball without crossing a triangle are known to have the same answer.
   bool isSteady(glm::dvec3 center, double radius) const {
     return isConstant_ || (winding_ && winding_->isSteady(center, radius));

@@ -26,7 +26,6 @@ void forEachAround(const SampleGrid& grid, std::size_t cell, Visit visit) {
       for (int x = low.x; x <= high.x; ++x) visit(grid.cellOfBrick({x, y, z}));
 }
 
-constexpr double kFarExcess = 0.45;     // almost no turn or almost a whole one: no hole is near
 constexpr float kTriangleVoxels = 0.1f; // this near a triangle, it is nearer than any membrane that matters
 
 constexpr double kColoredVoxels = 2.5; // so near a membrane, surface attributes are looked up
@@ -56,26 +55,27 @@ public:
   }
 
 private:
+  static constexpr int kWholeCube = 4; // samples of smaller cubes are looked at one by one
+
   void look(const SampleCube& cube) {
     const SampleGrid& grid = request_.grid;
-    const double reach = cube.radiusVoxels() + kReachVoxels;
+    const double radius = cube.radiusVoxels() * grid.voxelSize;
     const glm::dvec3 center = grid.origin + grid.voxelSize * (glm::dvec3(kBrickCells * brick_) + cube.centerVoxels());
-    if (!request_.isComplete && cube.side > 2 && test_.isSteady(center, reach * grid.voxelSize)) return;
-    if (cube.side > 2)
+    const std::optional<WindingAround> around = test_.around(center, radius);
+    if (around && isFarFromMembranes(*around, glm::dvec3(0.0), radius, limit())) return;
+    if (!request_.isComplete && cube.side > 2 && test_.isSteady(center, radius + limit())) return;
+    if (cube.side > (around ? kWholeCube : 2)) {
       for (int i = 0; i < 8; ++i) look(cube.eighth(i));
-    else
-      cube.forEach([&](glm::ivec3 sample) { voxels_[sampleIndex(sample)] = voxelsAt(sample); });
+      return;
+    }
+    cube.forEach([&](glm::ivec3 sample) {
+      const glm::dvec3 point = grid.sample(brick_, sample);
+      if (!around || !isFarFromMembranes(*around, point - center, 0.0, limit()))
+        voxels_[sampleIndex(sample)] = static_cast<float>(test_.membraneDistance(point, limit()) / grid.voxelSize);
+    });
   }
-  float voxelsAt(glm::ivec3 sample) const {
-    constexpr float kNowhere = std::numeric_limits<float>::infinity();
-    const glm::dvec3 point = request_.grid.sample(brick_, sample);
-    const double least = test_.leastExcess(point);
-    if (least > kFarExcess) return kNowhere;
-    const double steepness = std::max(glm::length(test_.slopeAt(point)) * request_.grid.voxelSize, 1e-12);
-    if (!request_.isComplete && least > kReachVoxels * steepness) return kNowhere;
-    const double excess = std::abs(test_.excess(point)); // the membrane may be one of more turns, which is none
-    return excess > kFarExcess ? kNowhere : static_cast<float>(excess / steepness);
-  }
+  /// Soup space.
+  double limit() const { return request_.isComplete ? HUGE_VAL : kReachVoxels * request_.grid.voxelSize; }
 
   const SamplingRequest& request_;
   const InsideTest& test_;

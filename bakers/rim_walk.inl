@@ -10,9 +10,26 @@ struct Quad3 {
 };
 
 QUAD_INLINE Quad quad(double v) { return Quad{v, v, v, v}; }
-QUAD_INLINE Quad quad(const double (&lanes)[4]) { return Quad{lanes[0], lanes[1], lanes[2], lanes[3]}; }
-QUAD_INLINE Quad3 fromPoint(const double (&lanes)[3][4], glm::dvec3 point) {
-  return {quad(lanes[0]) - quad(point.x), quad(lanes[1]) - quad(point.y), quad(lanes[2]) - quad(point.z)};
+QUAD_INLINE Quad quad(const float* lanes) {
+  Float4 floats;
+  std::memcpy(&floats, lanes, sizeof(floats));
+  return __builtin_convertvector(floats, Quad);
+}
+/// A point as edges are looked at from it.
+struct RimView {
+  Quad3 center, point;
+  Quad unitsPerMetre;
+};
+QUAD_INLINE RimView viewFrom(const Rims::Frame& frame, glm::dvec3 point) {
+  return {{quad(frame.centerObject.x), quad(frame.centerObject.y), quad(frame.centerObject.z)},
+          {quad(point.x), quad(point.y), quad(point.z)},
+          quad(frame.unitsPerMetre)};
+}
+/// Where four edges begin, or end: from one place in their points on.
+QUAD_INLINE Quad3 from(const RimView& view, const Rims::EdgeQuad& edges, std::size_t first) {
+  return {(quad(&edges.points[0][first]) - view.center.x) * view.unitsPerMetre - view.point.x,
+          (quad(&edges.points[1][first]) - view.center.y) * view.unitsPerMetre - view.point.y,
+          (quad(&edges.points[2][first]) - view.center.z) * view.unitsPerMetre - view.point.z};
 }
 QUAD_INLINE Quad dotOf(const Quad3& a, const Quad3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 QUAD_INLINE Quad3 crossOf(const Quad3& a, const Quad3& b) {
@@ -33,22 +50,34 @@ QUAD_INLINE Quad oneOverLength(const Quad3& a) {
 }
 QUAD_INLINE double sumOf(Quad v) { return ((v[0] + v[1]) + v[2]) + v[3]; }
 
-/// Multiplies the numbers whose arguments are half the solid angles of the triangles from the apex to the edges.
-inline void multiplyFan(std::span<const Rims::EdgeQuad> edges, glm::dvec3 apex, glm::dvec3 point, FanSums& sums) {
+/// Multiplies the numbers whose arguments are half the solid angles of the triangles from the apex to the edges; with
+/// kWithSlope also adds up the edges' parts of the slope.
+template <bool kWithSlope>
+inline void multiplyFan(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, glm::dvec3 apex, glm::dvec3 point,
+                        FanSums& sums) {
+  const RimView view = viewFrom(frame, point);
   constexpr std::size_t kUnscaled = 6; // each is at most four times the product of three lengths
   const glm::dvec3 toApex = apex - point;
   const Quad3 c{quad(toApex.x), quad(toApex.y), quad(toApex.z)};
   const Quad lengthC = quad(glm::length(toApex));
   Quad real = quad(1.0), imaginary = quad(0.0);
+  Quad3 slope{quad(0.0), quad(0.0), quad(0.0)};
   std::size_t count = 0;
   for (const Rims::EdgeQuad& edge : edges) {
-    const Quad3 a = fromPoint(edge.from, point), b = fromPoint(edge.to, point);
+    const Quad3 a = from(view, edge, 0), b = from(view, edge, 1);
     const Quad lengthA = rootOf(dotOf(a, a)), lengthB = rootOf(dotOf(b, b));
-    const Quad x = (lengthA * lengthB + dotOf(a, b)) * lengthC + dotOf(b, c) * lengthA + dotOf(c, a) * lengthB;
-    const Quad y = dotOf(c, crossOf(a, b));
+    const Quad lengths = lengthA * lengthB, straight = lengths + dotOf(a, b);
+    const Quad3 turn = crossOf(a, b);
+    const Quad x = straight * lengthC + dotOf(b, c) * lengthA + dotOf(c, a) * lengthB;
+    const Quad y = dotOf(c, turn);
     const Quad product = real * x - imaginary * y;
     imaginary = real * y + imaginary * x;
     real = product;
+    if constexpr (kWithSlope) {
+      const Quad divisor = lengths * straight;
+      const Quad weight = (lengthA + lengthB) / (divisor > quad(1e-200) ? divisor : quad(1e-200));
+      slope.x += weight * turn.x, slope.y += weight * turn.y, slope.z += weight * turn.z;
+    }
     if (++count % kUnscaled != 0) continue;
     const Quad lengthSquared = real * real + imaginary * imaginary;
     const Quad scale = quad(1.0) / rootOf(lengthSquared > quad(1e-200) ? lengthSquared : quad(1e-200));
@@ -58,15 +87,18 @@ inline void multiplyFan(std::span<const Rims::EdgeQuad> edges, glm::dvec3 apex, 
     const double scale = 1.0 / std::max(std::sqrt(real[i] * real[i] + imaginary[i] * imaginary[i]), 1e-200);
     sums.real[i] = scale * real[i], sums.imaginary[i] = scale * imaginary[i];
   }
+  if constexpr (kWithSlope) sums.slope = glm::dvec3(sumOf(slope.x), sumOf(slope.y), sumOf(slope.z));
 }
 
 /// returns false where an edge comes into the ball
-inline bool addField(std::span<const Rims::EdgeQuad> edges, glm::dvec3 point, double radius, FieldSums& sums) {
+inline bool addField(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, glm::dvec3 point, double radius,
+                     FieldSums& sums) {
+  const RimView view = viewFrom(frame, point);
   const Quad zero = quad(0.0), one = quad(1.0);
   Quad3 slope{zero, zero, zero};
   Quad squares = zero, cubes = zero;
   for (const Rims::EdgeQuad& edge : edges) {
-    const Quad3 a = fromPoint(edge.from, point), b = fromPoint(edge.to, point);
+    const Quad3 a = from(view, edge, 0), b = from(view, edge, 1);
     const Quad3 along{b.x - a.x, b.y - a.y, b.z - a.z};
     const Quad lengthSquared = dotOf(along, along);
     Quad t = (zero - dotOf(a, along)) / (lengthSquared > quad(1e-200) ? lengthSquared : quad(1e-200));

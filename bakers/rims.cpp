@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <span>
 
+#include "bakers/float4.h"
 #include "bakers/simd_level.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi" // vectors of 32 bytes are passed within this file alone, and inlined
@@ -20,6 +22,7 @@ namespace {
 /// What walks over rim edges find.
 struct FanSums {
   std::array<double, 4> real, imaginary; ///< lane by lane
+  glm::dvec3 slope{0.0};                 ///< times 4 pi
 };
 struct FieldSums {
   glm::dvec3 slope{0.0}; ///< times 4 pi
@@ -44,7 +47,8 @@ constexpr double kFourPi = 4.0 * std::numbers::pi;
 constexpr double kFieldChange = 2.2360680;
 constexpr double kSlackTurns = 1e-9; // over rounding
 constexpr std::size_t kBundleQuads = 16;
-constexpr double kFarRadii = 3; // of a bundle: beyond, it counts as one edge where there are many
+constexpr double kFarRadii = 3;     // of a bundle: beyond, it counts as one edge where there are many
+constexpr double kFarLoopRadii = 4; // of a loop: beyond, it makes less than 0.03 turns
 
 double fractionOf(const FanSums& sums) {
   double real = 1, imaginary = 0;
@@ -57,26 +61,26 @@ double fractionOf(const FanSums& sums) {
   return turns < 0 ? turns + 1.0 : turns;
 }
 
-/// Where a to b counts as often as it is walked more often than b to a.
-struct DirectedEdge {
+/// Counts `balance` times from its low to its high vertex, or the other way where that is negative.
+struct CountedEdge {
   std::uint32_t low, high;
   int balance;
 };
 
-std::vector<DirectedEdge> unbalancedEdges(const TriangleSoup& soup, const std::vector<std::uint32_t>& triangles) {
-  std::vector<DirectedEdge> edges;
+std::vector<CountedEdge> unbalancedEdges(const TriangleSoup& soup, const std::vector<std::uint32_t>& triangles) {
+  std::vector<CountedEdge> edges;
   edges.reserve(3 * triangles.size());
   for (const std::uint32_t t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = soup.triangles[t][k], to = soup.triangles[t][(k + 1) % 3];
-      edges.push_back(from < to ? DirectedEdge{from, to, 1} : DirectedEdge{to, from, -1});
+      edges.push_back(from < to ? CountedEdge{from, to, 1} : CountedEdge{to, from, -1});
     }
-  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
+  std::sort(edges.begin(), edges.end(), [](const CountedEdge& a, const CountedEdge& b) {
     return a.low != b.low ? a.low < b.low : a.high < b.high;
   });
-  std::vector<DirectedEdge> unbalanced;
+  std::vector<CountedEdge> unbalanced;
   for (std::size_t i = 0; i < edges.size();) {
-    DirectedEdge sum{edges[i].low, edges[i].high, 0};
+    CountedEdge sum{edges[i].low, edges[i].high, 0};
     for (; i < edges.size() && edges[i].low == sum.low && edges[i].high == sum.high; ++i)
       sum.balance += edges[i].balance;
     if (sum.balance != 0) unbalanced.push_back(sum);
@@ -84,27 +88,77 @@ std::vector<DirectedEdge> unbalancedEdges(const TriangleSoup& soup, const std::v
   return unbalanced;
 }
 
+struct DirectedEdge {
+  std::uint32_t from, to;
+};
+
+/// Ascending by where they begin.
+std::vector<DirectedEdge> rimEdges(const TriangleSoup& soup, const std::vector<std::uint32_t>& triangles) {
+  std::vector<DirectedEdge> edges;
+  for (const CountedEdge& edge : unbalancedEdges(soup, triangles))
+    for (int i = 0; i < std::abs(edge.balance); ++i)
+      edges.push_back(edge.balance > 0 ? DirectedEdge{edge.low, edge.high} : DirectedEdge{edge.high, edge.low});
+  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
+    return a.from != b.from ? a.from < b.from : a.to < b.to;
+  });
+  return edges;
+}
+
 } // namespace
 
-Rims::Rims(const TriangleSoup& soup, const std::vector<std::uint32_t>& triangles) {
-  const auto setLane = [&](glm::dvec3 from, glm::dvec3 to, std::size_t lane) {
-    for (glm::length_t axis = 0; axis < 3; ++axis)
-      edges_.back().from[axis][lane] = from[axis], edges_.back().to[axis][lane] = to[axis];
+/// As many rim edges begin at a vertex as end there, so a walk can go on until it is back where it began.
+Rims::Rims(const TriangleSoup& soup, const std::vector<std::uint32_t>& triangles)
+    : frame_{soup.centerObject, soup.unitsPerMetre} {
+  const std::vector<DirectedEdge> edges = rimEdges(soup, triangles);
+  edgeCount_ = edges.size();
+  if (edges.empty()) return;
+  const auto firstFrom = [&](std::uint32_t vertex) {
+    const auto isBefore = [](const DirectedEdge& edge, std::uint32_t v) { return edge.from < v; };
+    return static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), vertex, isBefore) - edges.begin());
   };
+  std::vector<bool> isWalked(edges.size(), false);
+  std::vector<glm::dvec3> points;
   glm::dvec3 sum(0.0);
-  for (const DirectedEdge& edge : unbalancedEdges(soup, triangles)) {
-    glm::dvec3 from = soup.positions[edge.low], to = soup.positions[edge.high];
-    if (edge.balance < 0) std::swap(from, to);
-    for (int i = 0; i < std::abs(edge.balance); ++i) {
-      const std::size_t lane = edgeCount_++ % 4;
-      if (lane == 0) edges_.emplace_back();
-      for (std::size_t other = lane; other < 4; ++other) setLane(from, other == lane ? to : from, other);
-      sum += from;
+  for (std::size_t start = 0; start < edges.size(); ++start) {
+    if (isWalked[start]) continue;
+    points.assign(1, soup.positions[edges[start].from]);
+    for (std::size_t edge = start;;) {
+      isWalked[edge] = true;
+      points.push_back(soup.positions[edges[edge].to]);
+      sum += points.back();
+      if (edges[edge].to == edges[start].from) break;
+      edge = firstFrom(edges[edge].to);
+      while (isWalked[edge]) ++edge;
     }
+    addLoop(points);
   }
-  // Off the planes that modelled rims lie in: a point in a triangle of the fan has no side of it.
   if (areMany()) bundleEdges();
-  if (edgeCount_ > 0) apex_ = sum / static_cast<double>(edgeCount_) + soup.reach * glm::dvec3(0.0137, 0.0211, 0.0173);
+  // Off the planes that modelled rims lie in: a point in a triangle of the fan has no side of it.
+  apex_ = sum / static_cast<double>(edgeCount_) + soup.reach * glm::dvec3(0.0137, 0.0211, 0.0173);
+}
+
+/// points  the first once more at the end
+void Rims::addLoop(const std::vector<glm::dvec3>& points) {
+  const auto begin = static_cast<std::uint32_t>(edges_.size());
+  const std::size_t last = points.size() - 1;
+  glm::dvec3 low = points[0], high = points[0];
+  for (const glm::dvec3 point : points) low = glm::min(low, point), high = glm::max(high, point);
+  Loop loop{begin, begin, 0.5 * (low + high), 0, 0};
+  for (std::size_t first = 0; first < last; first += 4) {
+    EdgeQuad& quad = edges_.emplace_back();
+    for (std::size_t i = 0; i < 5; ++i)
+      for (glm::length_t axis = 0; axis < 3; ++axis) {
+        const double metres = points[std::min(first + i, last)][axis] / frame_.unitsPerMetre;
+        quad.points[axis][i] = static_cast<float>(metres + frame_.centerObject[axis]);
+      }
+  }
+  for (std::size_t i = 0; i < last; ++i) {
+    const glm::dvec3 from = points[i] - loop.center, to = points[i + 1] - loop.center;
+    loop.radius = std::max(loop.radius, glm::length(from));
+    loop.area += 0.5 * glm::length(glm::cross(from, to));
+  }
+  loop.end = static_cast<std::uint32_t>(edges_.size());
+  if (!areMany()) loops_.push_back(loop);
 }
 
 void Rims::bundleEdges() {
@@ -113,9 +167,10 @@ void Rims::bundleEdges() {
     glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
     for (std::size_t i = bundle.begin; i < bundle.end; ++i)
       for (std::size_t lane = 0; lane < 4; ++lane) {
-        const EdgeQuad& edge = edges_[i];
-        const glm::dvec3 from(edge.from[0][lane], edge.from[1][lane], edge.from[2][lane]);
-        const glm::dvec3 to(edge.to[0][lane], edge.to[1][lane], edge.to[2][lane]);
+        const auto pointOf = [&, &p = edges_[i].points](std::size_t k) {
+          return (glm::dvec3(p[0][k], p[1][k], p[2][k]) - frame_.centerObject) * frame_.unitsPerMetre;
+        };
+        const glm::dvec3 from = pointOf(lane), to = pointOf(lane + 1);
         low = glm::min(low, glm::min(from, to)), high = glm::max(high, glm::max(from, to));
         bundle.length += glm::length(to - from);
         bundle.way += to - from;
@@ -125,27 +180,67 @@ void Rims::bundleEdges() {
   }
 }
 
-double Rims::fractionAt(glm::dvec3 point) const {
+namespace {
+
+template <bool kWithSlope>
+FanSums fanOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, glm::dvec3 apex, glm::dvec3 point) {
   FanSums sums;
 #if defined(__x86_64__)
   if (activeSimd() == SimdLevel::Avx2) {
-    avx2::multiplyFan(edges_, apex_, point, sums);
-    return fractionOf(sums);
+    avx2::multiplyFan<kWithSlope>(edges, frame, apex, point, sums);
+    return sums;
   }
 #endif
-  portable::multiplyFan(edges_, apex_, point, sums);
-  return fractionOf(sums);
+  portable::multiplyFan<kWithSlope>(edges, frame, apex, point, sums);
+  return sums;
+}
+
+/// returns false where an edge comes into the ball
+bool addFieldOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, glm::dvec3 point, double radius,
+                FieldSums& sums) {
+#if defined(__x86_64__)
+  if (activeSimd() == SimdLevel::Avx2) return avx2::addField(edges, frame, point, radius, sums);
+#endif
+  return portable::addField(edges, frame, point, radius, sums);
+}
+
+} // namespace
+
+double Rims::fractionAt(glm::dvec3 point) const { return fractionOf(fanOf<false>(edges_, frame_, apex_, point)); }
+
+WindingAround Rims::fractionAndSlopeAt(glm::dvec3 point) const {
+  const FanSums sums = fanOf<true>(edges_, frame_, apex_, point);
+  return {fractionOf(sums), sums.slope / kFourPi, 0, 0, 0};
+}
+
+/// Of a loop's surface all points are at least so far from the ball: the solid angle is at most its area by the square
+/// of that, the slope twice that by the cube (a dipole's, along its axis).
+std::optional<WindingAround> Rims::around(glm::dvec3 center, double radius) const {
+  if (areMany()) return std::nullopt;
+  WindingAround around;
+  FieldSums near;
+  for (const Loop& loop : loops_) {
+    const double away = glm::length(loop.center - center) - radius - loop.radius;
+    if (away > (kFarLoopRadii - 1) * loop.radius) {
+      const double most = loop.area / (kFourPi * away * away);
+      around.slack += most, around.slopeSlack += 2.0 * most / away;
+      continue;
+    }
+    const std::span edges = std::span(edges_).subspan(loop.begin, loop.end - loop.begin);
+    if (!addFieldOf(edges, frame_, center, radius, near)) return std::nullopt;
+    around.fraction += fractionOf(fanOf<false>(edges, frame_, apex_, center));
+  }
+  around.fraction -= std::floor(around.fraction);
+  around.slope = near.slope / kFourPi;
+  around.bend = kFieldChange * near.inverseCubes / kFourPi;
+  around.slack += kSlackTurns;
+  return around;
 }
 
 Rims::Field Rims::fieldAt(glm::dvec3 point, double radius) const {
   Field field;
   FieldSums sums;
-  const auto addEdges = [&](std::span<const EdgeQuad> edges) {
-#if defined(__x86_64__)
-    if (activeSimd() == SimdLevel::Avx2) return avx2::addField(edges, point, radius, sums);
-#endif
-    return portable::addField(edges, point, radius, sums);
-  };
+  const auto addEdges = [&](std::span<const EdgeQuad> edges) { return addFieldOf(edges, frame_, point, radius, sums); };
   if (areMany()) {
     for (const Bundle& bundle : bundles_) {
       const glm::dvec3 r = bundle.center - point;

@@ -12,6 +12,9 @@ namespace brickfield {
 
 namespace {
 
+constexpr std::size_t kMostSides = 4;   // of one half and whole turns more, in a cube
+constexpr std::size_t kMostUnsure = 16; // twice what smaller cubes would ask
+
 class CellAsker {
 public:
   CellAsker(const SampleGrid& grid, glm::ivec3 cell, const InsideTest& test, const float* distances)
@@ -26,34 +29,73 @@ public:
 
 private:
   void ask(const SampleCube& cube) {
-    if (cube.side > 1 && !isSteady(cube)) {
-      for (int i = 0; i < 8; ++i) ask(cube.eighth(i));
-    } else if (links_ && cube.side > 1) {
-      askGroups(cube);
-    } else {
-      const std::uint8_t sign = test_.isInside(pointAt(cube.centerVoxels()));
-      cube.forEach([&](glm::ivec3 sample) { signs_[sampleIndex(sample)] = sign; });
+    if (cube.side == 1) return askOne(cube.first);
+    const double radius = cube.radiusVoxels() * grid_.voxelSize;
+    const std::optional<WindingAround> around = test_.around(pointAt(cube.centerVoxels()), radius);
+    if (around && askBySides(cube, *around)) return;
+    if (!around && test_.isSteady(pointAt(cube.centerVoxels()), radius))
+      return askGroups(samplesOf(cube)); // very many rims
+    for (int i = 0; i < 8; ++i) ask(cube.eighth(i));
+  }
+  void askOne(glm::ivec3 sample) { signs_[sampleIndex(sample)] = test_.isInside(grid_.sample(cell_, sample)); }
+
+  static SampleMask samplesOf(const SampleCube& cube) {
+    SampleMask mask{};
+    cube.forEach([&](glm::ivec3 sample) { mask[sampleIndex(sample) / 64] |= bitOf(sample); });
+    return mask;
+  }
+  static std::uint64_t bitOf(glm::ivec3 sample) { return std::uint64_t{1} << (sampleIndex(sample) % 64); }
+
+  /// By groups on the same side of one half, as far as that is known; a way between two of them keeps to their side, as
+  /// what is known holds on it too. Other samples are asked one by one.
+  ///
+  /// returns  false, and has asked nothing, where those are so many that smaller cubes are better
+  bool askBySides(const SampleCube& cube, const WindingAround& around) {
+    const glm::dvec3 center = pointAt(cube.centerVoxels());
+    if (around.leastFromHalf(glm::dvec3(0.0), cube.radiusVoxels() * grid_.voxelSize) > 0) {
+      askGroups(samplesOf(cube));
+      return true;
     }
+    std::array<SampleMask, kMostSides> sides{};
+    std::array<glm::ivec3, kMostUnsure> unsure;
+    std::size_t unsureCount = 0;
+    bool isSplit = false;
+    cube.forEach([&](glm::ivec3 sample) {
+      const glm::dvec3 offset = grid_.sample(cell_, sample) - center;
+      const double side = std::floor(around.at(offset) + 0.5) + kMostSides / 2;
+      if (side >= 0 && side < kMostSides && around.leastFromHalf(offset, 0.0) > 0)
+        sides[static_cast<std::size_t>(side)][sampleIndex(sample) / 64] |= bitOf(sample);
+      else if (unsureCount < unsure.size())
+        unsure[unsureCount++] = sample;
+      else
+        isSplit = true;
+    });
+    if (isSplit) return false;
+    for (const SampleMask& side : sides) askGroups(side);
+    for (std::size_t i = 0; i < unsureCount; ++i) askOne(unsure[i]);
+    return true;
   }
 
   /// The deepest sample of each group answers for it. Those on the surface have no side: outside.
-  void askGroups(const SampleCube& cube) {
-    SampleMask left{};
-    cube.forEach([&](glm::ivec3 sample) {
-      const std::size_t i = sampleIndex(sample);
-      left[i / 64] |= std::uint64_t{distances_[i] > 0} << (i % 64);
-    });
+  void askGroups(SampleMask left) {
+    if (!links_) {
+      for (std::size_t z = 0; z < left.size(); ++z)
+        if (left[z] != 0) return answer(64 * z + static_cast<std::size_t>(std::countr_zero(left[z])), left);
+      return;
+    }
+    const SampleMask off = samplesOffSurface(distances_);
+    for (std::size_t z = 0; z < left.size(); ++z) left[z] &= off[z];
     for (std::size_t z = 0; z < left.size(); ++z)
       while (left[z] != 0) {
         const SampleMask group = links_->flood(64 * z + static_cast<std::size_t>(std::countr_zero(left[z])), left);
-        const std::uint8_t sign = test_.isInside(grid_.sample(cell_, sampleOfIndex(deepestOf(group, distances_))));
-        if (sign) forEachSample(group, [&](std::size_t i) { signs_[i] = sign; });
+        answer(deepestOf(group, distances_), group);
       }
   }
-
-  bool isSteady(const SampleCube& cube) const {
-    return test_.isSteady(pointAt(cube.centerVoxels()), cube.radiusVoxels() * grid_.voxelSize);
+  void answer(std::size_t sample, const SampleMask& group) {
+    if (test_.isInside(grid_.sample(cell_, sampleOfIndex(sample))))
+      forEachSample(group, [&](std::size_t i) { signs_[i] = 1; });
   }
+
   glm::dvec3 pointAt(glm::dvec3 voxels) const {
     return grid_.origin + grid_.voxelSize * (glm::dvec3(kBrickCells * cell_) + voxels);
   }

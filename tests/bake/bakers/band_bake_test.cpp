@@ -116,6 +116,15 @@ TEST(BandBake, HierarchyTakesFewBytesATriangle) {
   }
 }
 
+TEST(BandBake, RimsTakeFewBytesATriangleToo) {
+  BRICKFIELD_NEEDS_DATA("tree_leaf_cards.glb");
+  BakeSettings settings;
+  settings.resolution = 256; // from which on the branches, tubes of a few triangles, count as solids
+  const BakeStats stats = bakeBand(FileCase("tree_leaf_cards.glb").input(), settings).stats;
+  ASSERT_NE(stats.sign.find("open surfaces"), std::string::npos);
+  EXPECT_LE(static_cast<double>(stats.hierarchyBytes) / static_cast<double>(stats.triangles), kHierarchyBytes);
+}
+
 TEST(BandBake, StagesAddUpToTheWhole) {
   MeshCase sphere;
   sphere.addSphere({0, 0, 0}, 1, 64, 128);

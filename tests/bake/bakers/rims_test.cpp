@@ -74,6 +74,10 @@ TEST(Rims, SlopeIsThatOfTheWindingNumber) {
       }
       const double exact = glm::length(slope);
       EXPECT_NEAR(glm::length(rims.slopeAt(point)), exact, (many ? 0.1 : 1e-4) * exact + 1e-4);
+      EXPECT_LT(glm::length(rims.slopeAt(point) - slope), (many ? 0.2 : 1e-4) * exact + 1e-4);
+      const WindingAround both = rims.fractionAndSlopeAt(point);
+      EXPECT_EQ(both.fraction, rims.fractionAt(point));
+      EXPECT_LT(glm::length(both.slope - slope), 1e-4 * exact + 1e-4);
     }
   }
 }
@@ -98,17 +102,75 @@ TEST(Rims, NothingInABallChangesMore) {
   }
 }
 
+TEST(Rims, NumbersAndSlopesKeepToWhatIsKnownAround) {
+  const MeshCase squares = tornSquares(8);
+  const TriangleSoup soup = gatherTriangles(squares.input());
+  const Rims rims(soup, allTriangles(soup));
+  ASSERT_FALSE(rims.areMany());
+  int known = 0, withFarLoops = 0, withNearLoops = 0, steady = 0;
+  for (const glm::dvec3 center : randomPoints(400, 1.2, 36))
+    for (const double radius : {0.01, 0.05, 0.2}) {
+      const std::optional<WindingAround> around = rims.around(center, radius);
+      if (!around || around->slack > 0.2) continue;
+      ++known;
+      withFarLoops += around->slack > 1e-4;
+      withNearLoops += around->bend > 0;
+      steady += around->leastFromHalf(glm::dvec3(0.0), radius) > 0;
+      for (const glm::dvec3 direction : randomPoints(10, 0.57, 37)) {
+        const glm::dvec3 offset = direction / std::max(glm::length(direction), 1.0) * radius;
+        const double away = glm::length(offset), fraction = rims.fractionAt(center + offset);
+        EXPECT_LE(offWhole(fraction - around->at(offset)), around->slack + 0.5 * around->bend * away * away);
+        EXPECT_LE(glm::length(rims.slopeAt(center + offset) - around->slope),
+                  around->slopeSlack + around->bend * away + 1e-9);
+        EXPECT_LE(glm::length(rims.slopeAt(center + offset)), around->steepest(away) + 1e-9);
+        EXPECT_GE(std::abs(fraction - 0.5), around->leastFromHalf(glm::dvec3(0.0), radius));
+        EXPECT_GE(std::abs(fraction - 0.5), around->leastFromHalf(offset, 0.0));
+      }
+    }
+  EXPECT_GT(known, 200);
+  EXPECT_GT(std::min({withFarLoops, withNearLoops, steady}), 50);
+}
+
+TEST(Rims, WhatIsFarFromMembranesHasNoDistanceToThem) {
+  for (const char* name : {"utah_teapot_1k.glb", "utah_teapot_2464.glb"}) {
+    BRICKFIELD_NEEDS_DATA(name);
+    SCOPED_TRACE(name);
+    const TriangleSoup soup = gatherTriangles(FileCase(name).input());
+    const MeshHierarchy hierarchy(soup, allTriangles(soup));
+    const InsideTest test(soup, analyseTopology(soup), hierarchy, SignMethod::Winding, "case");
+    constexpr double kRadius = 0.03, kLimit = 0.06;
+    int far = 0, near = 0, allFar = 0;
+    for (const glm::dvec3 center : randomPoints(1200, 0.8, 38)) {
+      const std::optional<WindingAround> around = test.around(center, kRadius);
+      const bool isAllFar = around && isFarFromMembranes(*around, glm::dvec3(0.0), kRadius, kLimit);
+      allFar += isAllFar;
+      for (const glm::dvec3 direction : randomPoints(10, 0.57, 39)) {
+        const glm::dvec3 offset = direction / std::max(glm::length(direction), 1.0) * kRadius;
+        const bool isNear = test.membraneDistance(center + offset, kLimit) < HUGE_VAL;
+        near += isNear;
+        if (!isAllFar && (!around || !isFarFromMembranes(*around, offset, 0.0, kLimit))) continue;
+        ++far;
+        EXPECT_FALSE(isNear);
+      }
+    }
+    EXPECT_GT(far, 1000);
+    EXPECT_GT(allFar, 100);
+    EXPECT_GT(near, 20);
+  }
+}
+
 TEST(Rims, AreTheSameWithAndWithoutAvx2) {
   const MeshCase squares = tornSquares(30);
   const TriangleSoup soup = gatherTriangles(squares.input());
   const Rims rims(soup, allTriangles(soup));
   for (const glm::dvec3 point : randomPoints(50, 0.7, 35)) {
     const double fraction = rims.fractionAt(point), change = rims.mostChange(point, 0.01);
-    const glm::dvec3 slope = rims.slopeAt(point);
+    const glm::dvec3 slope = rims.slopeAt(point), slopeOfBoth = rims.fractionAndSlopeAt(point).slope;
     limitSimd(SimdLevel::Portable);
     EXPECT_EQ(rims.fractionAt(point), fraction);
     EXPECT_EQ(rims.mostChange(point, 0.01), change);
     EXPECT_EQ(rims.slopeAt(point), slope);
+    EXPECT_EQ(rims.fractionAndSlopeAt(point).slope, slopeOfBoth);
     limitSimd(SimdLevel::Avx2);
   }
 }
