@@ -138,7 +138,7 @@ TEST(Rims, WhatIsFarFromMembranesHasNoDistanceToThem) {
     const TriangleSoup soup = gatherTriangles(FileCase(name).input());
     const MeshHierarchy hierarchy(soup, allTriangles(soup));
     const InsideTest test(soup, analyseTopology(soup), hierarchy, SignMethod::Winding, "case");
-    constexpr double kRadius = 0.03, kLimit = 0.06;
+    constexpr double kRadius = 0.004, kLimit = 0.06;
     int far = 0, near = 0, allFar = 0;
     for (const glm::dvec3 center : randomPoints(1200, 0.8, 38)) {
       const std::optional<WindingAround> around = test.around(center, kRadius);
