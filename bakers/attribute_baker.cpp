@@ -1,19 +1,31 @@
-// Alpha is coverage: it is kept where the material cuts or blends, and 1 where it is opaque, whatever the texture says,
-// and where the mask has cut the geometry itself. There textures are read at half a voxel's width: what lies beyond the
-// cut, often black, is to stay out of the colour.
+// Alpha is coverage: it is kept where the material cuts or blends, and 1 where it is opaque, whatever the texture says.
+// Where the mask has cut the geometry itself, the slabs reach beyond the cut: coverage, filtered to a voxel, cuts them
+// back to where the mask ends. Colours are read there at half a voxel's width and within the piece: what lies beyond
+// the cut, often black, is to stay out of them.
 #include "bakers/attribute_baker.h"
 
 #include <algorithm>
 
+#include "bakers/mask_cut.h"
 #include "field/brick_field.h"
 
 namespace brickfield {
 
 namespace {
 
+constexpr int kPlacesAlongVoxel = 4; // where a mask is looked at: steps of 1/16 of coverage
+
 bool isTextured(const Material& material) {
   return material.baseColorTexture.isUsed() || material.metallicRoughnessTexture.isUsed() ||
          material.occlusionTexture.isUsed() || material.emissionTexture.isUsed();
+}
+
+/// Barycentric coordinates (weights of the second and the third corner) of a point's foot on a triangle's plane.
+glm::vec2 footOn(const std::array<glm::dvec3, 3>& corners, glm::dvec3 point) {
+  const glm::dvec3 ab = corners[1] - corners[0], ac = corners[2] - corners[0], ap = point - corners[0];
+  const glm::dvec3 normal = glm::cross(ab, ac); // positive: the triangle has an area
+  return glm::vec2(glm::dvec2(glm::dot(glm::cross(ap, ac), normal), glm::dot(glm::cross(ab, ap), normal)) /
+                   glm::dot(normal, normal));
 }
 
 } // namespace
@@ -29,7 +41,8 @@ AttributeBaker::AttributeBaker(const BakeInput& input, const TriangleSoup& soup)
   }
 }
 
-PackedAttributes AttributeBaker::at(std::uint32_t triangle, const PointOnTriangle& on, float voxelMetres) const {
+PackedAttributes AttributeBaker::at(std::uint32_t triangle, const PointOnTriangle& on, glm::dvec3 sample,
+                                    float voxelMetres) const {
   const std::size_t firstPiece = soup_->firstPiece();
   if (triangle < firstPiece) return atParent(triangle, glm::vec2(on.barycentric), voxelMetres);
   // A piece's rim may lie beyond the cut, by a part of the smallest piece: the point is drawn towards the centroid, by
@@ -42,8 +55,43 @@ PackedAttributes AttributeBaker::at(std::uint32_t triangle, const PointOnTriangl
   const auto& [a, b, c] = soup_->pieceBarycentrics[triangle - firstPiece];
   PackedAttributes packed =
       atParent(triangle, a + weights.x * (b - a) + weights.y * (c - a), share > 0.0f ? 0.5f * voxelMetres : 0.0f);
-  packed.baseColor = packRgba8(glm::vec4(glm::vec3(unpackRgba8(packed.baseColor)), 1.0f));
+  packed.baseColor =
+      packRgba8(glm::vec4(glm::vec3(unpackRgba8(packed.baseColor)), keptShare(triangle, sample, voxelMetres)));
   return packed;
+}
+
+/// How much of the voxel's square around a sample's foot the mask keeps: one half at its border. All where it would
+/// keep nothing of the material: then it has cut nothing (mask_cut.cpp).
+float AttributeBaker::keptShare(std::uint32_t piece, glm::dvec3 sample, float voxelMetres) const {
+  const Primitive& primitive = *input_->primitives[soup_->primitiveIndices[piece]];
+  const Material& material = materialOf(*input_->scene, primitive);
+  const auto& [a, b, c] = soup_->pieceBarycentrics[piece - soup_->firstPiece()];
+  const auto isKept = [&, a = a, b = b, c = c](glm::vec2 weights) {
+    return isKeptByMask(sampler_, primitive, material, soup_->triangleIndices[piece],
+                        a + weights.x * (b - a) + weights.y * (c - a));
+  };
+  const bool isWhole = a == glm::vec2(0, 0) && b == glm::vec2(1, 0) && c == glm::vec2(0, 1);
+  if (isWhole && !isKept(glm::vec2(1.0f / 3.0f))) return 1.0f;
+  const auto corners = soup_->corners(piece);
+  const glm::dvec3 ab = corners[1] - corners[0];
+  // To the outermost of the places, which stand in the middles of equal squares.
+  const double far = 0.5 * static_cast<double>(voxelMetres) * soup_->unitsPerMetre * (1.0 - 1.0 / kPlacesAlongVoxel);
+  const glm::dvec3 right = far * glm::normalize(ab);
+  const glm::dvec3 up = far * glm::normalize(glm::cross(glm::cross(ab, corners[2] - corners[0]), ab));
+  const auto isKeptAt = [&](int i, int j) { // from -1 to 1
+    const double toRight = static_cast<double>(i) / (kPlacesAlongVoxel - 1),
+                 toUp = static_cast<double>(j) / (kPlacesAlongVoxel - 1);
+    return isKept(footOn(corners, sample + toRight * right + toUp * up));
+  };
+  constexpr int kLast = kPlacesAlongVoxel - 1;
+  const int atCorners =
+      isKeptAt(-kLast, -kLast) + isKeptAt(kLast, -kLast) + isKeptAt(-kLast, kLast) + isKeptAt(kLast, kLast);
+  if (const int atFive = atCorners + isKeptAt(0, 0); atFive % 5 == 0) return static_cast<float>(atFive / 5);
+  int kept = atCorners;
+  for (int j = -kLast; j <= kLast; j += 2)
+    for (int i = -kLast; i <= kLast; i += 2)
+      if (std::abs(i) < kLast || std::abs(j) < kLast) kept += isKeptAt(i, j);
+  return static_cast<float>(kept) / (kPlacesAlongVoxel * kPlacesAlongVoxel);
 }
 
 bool AttributeBaker::isSingleSided(std::uint32_t triangle) const {

@@ -30,9 +30,10 @@ public:
   bool hasEmission() const { return hasEmission_; }
 
   /// on          a point of the triangle
+  /// sample      soup space, closest to it: tells the coverage of what a mask was cut into
   /// voxelMetres object space: textures are filtered to a square of this width
   /// cost        a table look-up where the primitive has neither textures nor vertex colours
-  PackedAttributes at(std::uint32_t triangle, const PointOnTriangle& on, float voxelMetres) const;
+  PackedAttributes at(std::uint32_t triangle, const PointOnTriangle& on, glm::dvec3 sample, float voxelMetres) const;
 
   /// Whether the triangle's material shows its front alone and no other triangle covers its back.
   bool isSingleSided(std::uint32_t triangle) const;
@@ -40,6 +41,7 @@ public:
 private:
   /// The same by weights in the triangle of the primitive.
   PackedAttributes atParent(std::uint32_t triangle, glm::vec2 barycentric, float footprintMetres) const;
+  float keptShare(std::uint32_t piece, glm::dvec3 sample, float voxelMetres) const;
   PackedAttributes sample(const Material& material, const MaterialPoint& point) const;
 
   const BakeInput* input_;

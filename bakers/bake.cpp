@@ -28,6 +28,10 @@ namespace {
 // A slab half a voxel to each side can fall between two samples and vanish; a sixteenth more cannot, and two steps of
 // the 8-bit code are left below zero.
 constexpr double kLeastHalfThicknessVoxels = 0.5625;
+// Leaves on cards are mostly border, and seen aslant a card is wider by its thickness. Where its middle is half a voxel
+// from two samples, they are still inside once rounded: by 0.025 voxels, more than half a step of the 8-bit code,
+// 0.016.
+constexpr double kPieceShare = 0.525 / kLeastHalfThicknessVoxels;
 // A double-sided shell of smaller triangles is taken for the skin of something that is seen from outside. Larger ones
 // are walls: what they stand around is a room, and their slabs lie on its outer side. Flat ones stand around nothing,
 // but those at the border of a scene are seen from it, whichever way they face.
@@ -186,6 +190,7 @@ private:
     request.mayLieBehind.resize(soup_.triangles.size());
     request.isDoubleSided.resize(soup_.triangles.size());
     request.isTurned.resize(soup_.triangles.size());
+    if (settings_.thickness <= 0) request.pieceShare = kPieceShare;
     if (settings_.sign != SignMethod::Auto || settings_.thickness > 0) return request;
     const double fineArea = std::pow(kFineTriangleVoxels * voxelMetres * soup_.unitsPerMetre, 2.0);
     const std::vector<ComponentShape> shapes = componentShapes();

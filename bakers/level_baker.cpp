@@ -109,7 +109,7 @@ private:
       triangle = coatOf(triangle, sample);
     const auto corners = request_.sampling.soup->corners(triangle);
     const PointOnTriangle on = closestPointOnTriangle(sample, corners);
-    PackedAttributes packed = request_.attributes->at(triangle, on, request_.layout.voxelSizeObject);
+    PackedAttributes packed = request_.attributes->at(triangle, on, sample, request_.layout.voxelSizeObject);
     if (samples_.isSheet[begin_ + i] && request_.attributes->isSingleSided(triangle))
       coverFrontOnly(packed, glm::dot(sample - on.point, frontOf(corners)) + behindMiddle(triangle));
     return packed;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bakers/triangle_soup.h"
+#include "scene/texture_sampling.h"
 
 namespace brickfield {
 
@@ -20,5 +21,13 @@ namespace brickfield {
 /// proved by tests/bake/bakers/mask_cut_test.cpp
 std::vector<std::uint32_t> cutMaskedSheets(const BakeInput& input, TriangleSoup& soup,
                                            const std::vector<std::uint32_t>& sheets, double voxelSize);
+
+/// Whether the mask of a triangle's material keeps a point of it. Blended materials are masks at one half, as the
+/// opaque frame draws them.
+///
+/// number       of the triangle in its primitive
+/// barycentric  weights of the second and the third corner; beside the triangle its plane goes on
+bool isKeptByMask(const TextureSampler& sampler, const Primitive& primitive, const Material& material,
+                  std::size_t number, glm::vec2 barycentric);
 
 } // namespace brickfield

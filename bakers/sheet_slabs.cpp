@@ -45,6 +45,7 @@ glm::dvec3 unitOr(glm::dvec3 sum, glm::dvec3 fallback) {
 
 SheetSlabs::SheetSlabs(const TriangleSoup& soup, const MeshHierarchy& sheets, const SlabRequest& request)
     : soup_(&soup),
+      pieceShare_(request.pieceShare),
       isBehind_(soup.triangles.size(), false),
       hasWideRim_(request.isDoubleSided),
       isTurned_(request.isTurned) {
@@ -117,7 +118,8 @@ SheetSlabs::Side SheetSlabs::sideAt(const ClosestTriangle& closest) const {
 }
 
 double SheetSlabs::distance(glm::dvec3 point, const ClosestTriangle& closest, double halfThickness) const {
-  if (!isBehind_[closest.triangle]) return closest.distance - halfThickness;
+  if (!isBehind_[closest.triangle])
+    return closest.distance - (closest.triangle < soup_->firstPiece() ? 1.0 : pieceShare_) * halfThickness;
   const double middle = 0.5 * depthOf(halfThickness);
   const Side side = sideAt(closest);
   const glm::dvec3 offset = point - closest.on.point;

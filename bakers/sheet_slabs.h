@@ -21,6 +21,7 @@ struct SlabRequest {
   std::vector<bool> isDoubleSided; ///< a triangle: at rims as wide as a centred slab, else half as much
   std::vector<bool> isTurned;      ///< a triangle: what faces away from its normal counts as its front
   double halfThickness = 0;        ///< soup space, of the finest level: layers less than a slab apart stay centred
+  double pieceShare = 1;           ///< of the thickness, for what masks were cut into
 };
 
 class SheetSlabs {
@@ -59,6 +60,7 @@ private:
   bool isThin(std::uint32_t triangle, const MeshDistance& sheets, double thickness) const;
 
   const TriangleSoup* soup_;
+  double pieceShare_;
   std::vector<bool> isBehind_, hasWideRim_, isTurned_;   ///< a triangle
   std::vector<std::array<std::uint32_t, 3>> neighbours_; ///< a triangle: beyond edge k; kNoTriangle: none
   std::vector<Side> sideOfVertex_;                       ///< a welded vertex
