@@ -28,22 +28,25 @@ struct MeshOptions {
   double isoMetres = 0;
 };
 
-/// Colours a vertex each; metallic and roughness, which glTF has no vertex attributes for, as their means.
+/// Colours a vertex each; metallic, roughness and emission, which glTF has no vertex attributes for, as their means.
 Material paint(const BrickField& field, std::size_t level, Primitive& primitive) {
   Material material;
   material.metallic = 0;
   if (field.levels[level].baseColor.empty()) return material;
   double metallic = 0, roughness = 0, count = 0;
+  glm::dvec3 emission(0.0);
   primitive.colors.reserve(primitive.positions.size());
   for (const glm::vec3 position : primitive.positions) {
     const std::optional<SurfaceAttributes> found = attributesAt(field, level, position);
     primitive.colors.push_back(found ? found->baseColor : glm::vec4(1));
     if (!found) continue;
     metallic += found->metallic, roughness += found->roughness, ++count;
+    emission += glm::dvec3(found->emission);
   }
   if (count == 0) return material;
   material.metallic = static_cast<float>(metallic / count);
   material.roughness = static_cast<float>(roughness / count);
+  material.emission = glm::vec3(emission / count);
   return material;
 }
 

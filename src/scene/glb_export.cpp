@@ -22,6 +22,8 @@ using nlohmann::ordered_json;
 constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
 
+constexpr const char* kEmissiveStrength = "KHR_materials_emissive_strength";
+
 ordered_json jsonOf(glm::vec3 v) { return ordered_json::array({v.x, v.y, v.z}); }
 
 /// The binary chunk and what refers to it. Every element has four bytes or a multiple, so views stay aligned.
@@ -76,12 +78,20 @@ ordered_json attributesOf(const Primitive& primitive, BufferBuilder& buffer) {
   return attributes;
 }
 
+/// How far emission is over what a factor can say, 1 at least.
+float strengthOf(glm::vec3 emission) { return std::max({1.0f, emission.x, emission.y, emission.z}); }
+
 ordered_json jsonOf(const Material& material) {
   const glm::vec4 c = material.baseColor;
-  return {{"pbrMetallicRoughness",
-           {{"baseColorFactor", {c.x, c.y, c.z, c.w}},
-            {"metallicFactor", material.metallic},
-            {"roughnessFactor", material.roughness}}}};
+  ordered_json json = {{"pbrMetallicRoughness",
+                        {{"baseColorFactor", {c.x, c.y, c.z, c.w}},
+                         {"metallicFactor", material.metallic},
+                         {"roughnessFactor", material.roughness}}}};
+  if (material.emission == glm::vec3(0)) return json;
+  const float strength = strengthOf(material.emission);
+  json["emissiveFactor"] = jsonOf(material.emission / strength);
+  if (strength > 1) json["extensions"][kEmissiveStrength] = {{"emissiveStrength", strength}};
+  return json;
 }
 
 void appendWord(std::vector<std::byte>& file, std::uint64_t value) {
@@ -96,6 +106,7 @@ std::vector<std::byte> encodeGlb(const std::string& name, const Primitive& primi
   const int indices = buffer.add(primitive.indices, kUnsignedInt, "SCALAR", kIndexTarget);
   ordered_json document;
   document["asset"] = {{"version", "2.0"}, {"generator", "brickfield"}};
+  if (strengthOf(material.emission) > 1) document["extensionsUsed"] = {kEmissiveStrength};
   document["scene"] = 0;
   document["scenes"] = {{{"nodes", {0}}}};
   document["nodes"] = {{{"name", name}, {"mesh", 0}}};

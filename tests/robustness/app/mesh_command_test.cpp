@@ -1,5 +1,8 @@
 // From bricks to triangles and back by the program, and bakes that are refused for their memory.
+#include "field/bricks_file.h"
+#include "scene/gltf_import.h"
 #include "tests/robustness/app/command_line_fixture.h"
+#include "tests/unit/field/analytic_cases.h"
 
 namespace brickfield::test {
 namespace {
@@ -39,6 +42,24 @@ TEST_F(MeshCommand, WritesWhatBakesAgain) {
   EXPECT_LT(error["levels"][0]["rms_voxels"], 0.1);
   expectDone({"mesh", "a.bricks", "-o", "coarse.glb", "--level", "1", "--iso", "-0.02"});
   EXPECT_LT(fs::file_size(folder_ / "coarse.glb"), fs::file_size(folder_ / "a.glb"));
+}
+
+TEST_F(MeshCommand, WritesWhatTheSurfaceEmitsInTheMean) {
+  BrickField field = fieldOf(sphereBody(), 48, 8, 2);
+  addAttributes(field, [](glm::vec3 p) {
+    SurfaceAttributes a;
+    a.emission = (p.x - kCenter.x + kRadius) / kRadius * glm::vec3(4, 0.5f, 0); // twice that on one side, dark opposite
+    return a;
+  });
+  writeBricksFile(folder_ / "lamp.bricks", field);
+  for (const char* level : {"0", "1"}) {
+    expectDone({"mesh", "lamp.bricks", "-o", "lamp.glb", "--level", level});
+    const Scene scene = importGltf(folder_ / "lamp.glb");
+    const glm::vec3 emission = materialOf(scene, scene.meshes[0].primitives[0]).emission;
+    EXPECT_NEAR(emission.x, 4, 0.1f); // vertices are spread over the sphere nearly evenly
+    EXPECT_NEAR(emission.y, 0.5f, 0.0125f);
+    EXPECT_EQ(emission.z, 0);
+  }
 }
 
 TEST_F(MeshCommand, RefusesWrongInput) {

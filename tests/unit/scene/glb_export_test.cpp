@@ -51,6 +51,20 @@ TEST(GlbExport, ComesBackWhole) {
   EXPECT_EQ(surface.roughness, 0.75f);
 }
 
+TEST(GlbExport, EmissionComesBackWeakOrStrong) {
+  for (const glm::vec3 emission : {glm::vec3(0), glm::vec3(0.5f, 0.25f, 0), glm::vec3(1), glm::vec3(3, 12, 0.75f)}) {
+    Material material;
+    material.emission = emission;
+    const std::vector<std::byte> bytes = encodeGlb("lamp", twoTriangles(), material);
+    const Scene scene = imported(bytes);
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
+    const glm::vec3 read = materialOf(scene, scene.meshes[0].primitives[0]).emission;
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(read[k], emission[k], 1e-6f * emission[k]);
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    EXPECT_EQ(text.find("emissive_strength") != text.npos, emission.y > 1) << "asked of readers only where needed";
+  }
+}
+
 TEST(GlbExport, NeedsNoColours) {
   Primitive written = twoTriangles();
   written.colors.clear();
