@@ -96,7 +96,7 @@ public:
     result.field.boundsObject = layout.boundsObject;
     result.field.originObject = layout.originObject;
     result.field.sourceHash = bakeHash(input_, settings_);
-    if (thickness_) result.field.thinParts = thinPartsAt(layout.levels.front());
+    if (thickness_) result.field.thinParts = thinPartsAt(layout.levels, 0);
     std::optional<AttributeBaker> attributes;
     if (settings_.attributes) attributes.emplace(input_, soup_);
     for (std::size_t i = 0; i < layout.levels.size(); ++i) {
@@ -260,9 +260,13 @@ private:
     }
   }
 
-  ThinParts thinPartsAt(const LevelLayout& level) {
+  const ThinParts& thinPartsAt(std::span<const LevelLayout> levels, std::size_t index) {
     const StageClock clock(stats_.stages.sign);
-    return findThinParts(*thickness_, level.voxelSizeObject * soup_.unitsPerMetre, settings_.resolution);
+    thinParts_.resize(levels.size());
+    if (!thinParts_[index])
+      thinParts_[index] =
+          findThinParts(*thickness_, levels[index].voxelSizeObject * soup_.unitsPerMetre, settings_.resolution);
+    return *thinParts_[index];
   }
 
   BrickLevel bakeOneLevel(const GridLayout& layout, std::size_t index, bool isComplete,
@@ -283,7 +287,7 @@ private:
     sampling.grid = {soup_.soupFromObject(layout.originObject), voxelMetres * soup_.unitsPerMetre,
                      request.layout.brickCounts};
     sampling.halfThickness = halfThicknessMetres(voxelMetres) * soup_.unitsPerMetre;
-    if (settings_.sign == SignMethod::Auto && thickness_ && thinPartsAt(request.layout).resolution > 0) {
+    if (settings_.sign == SignMethod::Auto && thickness_ && thinPartsAt(layout.levels, index).resolution > 0) {
       request.thickness = &*thickness_;
       sampling.solidGrowthVoxels = kMostGrowthVoxels;
     }
@@ -336,6 +340,7 @@ private:
   BakeSurfaces surfaces_;
   std::optional<InsideTest> inside_;
   std::optional<SolidThickness> thickness_;
+  std::vector<std::optional<ThinParts>> thinParts_; ///< a level, where they were asked for
   std::vector<std::uint32_t> sheets_;
   std::size_t sheetCount_ = 0;
 };

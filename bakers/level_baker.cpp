@@ -88,8 +88,9 @@ public:
 
   void fill(BrickLevel& level) const {
     PackedAttributes last = at(leastDistant());
+    const bool isSame = request_.attributes->isUniform() && !request_.sampling.surfaces->sheets; // slabs have coverage
     for (std::size_t i = 0; i < kSamples; ++i) {
-      if (std::abs(samples_.distances[begin_ + i]) <= kAttributeVoxels) last = at(i);
+      if (!isSame && std::abs(samples_.distances[begin_ + i]) <= kAttributeVoxels) last = at(i);
       level.baseColor[begin_ + i] = last.baseColor;
       level.material[begin_ + i] = last.material;
       if (!level.emission.empty()) level.emission[begin_ + i] = last.emission;
