@@ -19,10 +19,11 @@ namespace brickfield {
 ///   Pseudonormal  by the closest feature's normal; closed manifolds only
 ///   TwoSided      everything is a sheet
 /// A sheet is the slab of points up to half a thickness away, at least 0.5625 voxel of its level: thinner, it could
-/// fall between two samples. Where no thickness is asked for and its front can be told, the slab of Auto lies behind
-/// the front instead, 1.755 voxels deep (sheet_slabs.h). Masked sheets are cut along their masks; those of single-sided
-/// materials cover their front alone. Closed solids of Auto that are thinner than 1.755 voxels of a level are drawn up
-/// to 1.125 voxels thicker, both sides alike, where more than 1 % of a mesh is thinner than a voxel (thin_parts.h).
+/// fall between two samples (0.525 where a mask cuts it: just enough). Where no thickness is asked for and its front
+/// can be told, the slab of Auto lies behind the front instead, 1.755 voxels deep (sheet_slabs.h). Masked sheets are
+/// cut along their masks; those of single-sided materials cover their front alone. Closed solids of Auto that are
+/// thinner than 1.755 voxels of a level are drawn up to 1.125 voxels thicker, both sides alike, where more than 1 % of
+/// a mesh is thinner than a voxel (thin_parts.h).
 struct BakeSettings {
   int resolution = 128; ///< voxels along the longest side of the surface's box, sheets' thickness included; 8 to 1024
   int bits = 8;         ///< 8 or 16
