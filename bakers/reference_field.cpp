@@ -14,6 +14,8 @@ namespace brickfield {
 namespace {
 
 constexpr std::size_t kFinest = 0;
+constexpr int kMostCuts = 16;
+constexpr float kPastCutVoxels = 1e-2f; // beyond the hit, far enough that its own rounding is not met again
 
 void boundsOf(const RTCBoundsFunctionArguments* arguments) {
   const Box& box = static_cast<const BrickField*>(arguments->geometryUserPtr)->boundsObject;
@@ -22,9 +24,19 @@ void boundsOf(const RTCBoundsFunctionArguments* arguments) {
   bounds.upper_x = box.max.x, bounds.upper_y = box.max.y, bounds.upper_z = box.max.z;
 }
 
+/// Where the surface is cut away (masks, backs of single-sided sheets) a ray goes on behind it, as in
+/// shaders/passes/sdf_box.frag.glsl.
 std::optional<float> meetField(const BrickField& field, const RTCRay& ray) {
-  return traceField(field, kFinest, {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, ray.tnear,
-                    ray.tfar);
+  const glm::vec3 origin(ray.org_x, ray.org_y, ray.org_z), direction(ray.dir_x, ray.dir_y, ray.dir_z);
+  float from = ray.tnear;
+  for (int cut = 0; cut < kMostCuts; ++cut) {
+    const std::optional<float> met = traceField(field, kFinest, origin, direction, from, ray.tfar);
+    if (!met) return std::nullopt;
+    const std::optional<SurfaceAttributes> found = attributesAt(field, kFinest, origin + *met * direction);
+    if (!found || found->baseColor.w >= 0.5f) return met;
+    from = *met + kPastCutVoxels * field.levels[kFinest].voxelSizeObject / glm::length(direction);
+  }
+  return std::nullopt;
 }
 
 // Embree calls both with one ray at a time, as we only ask for one.

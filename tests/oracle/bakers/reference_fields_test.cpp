@@ -76,6 +76,37 @@ TEST(ReferenceFields, AttributesOfBricksAreShaded) {
   expectNear(layers.color[centreOf(layers)], {0, 3, 0}, 0.02f);
 }
 
+// Of the sphere's half that coverage cuts away, nothing is seen and nothing shadows the ground at z = -1.
+TEST(ReferenceFields, WhatCoverageCutsAwayIsNotThere) {
+  FieldScene objects;
+  const float voxel = objects.voxel();
+  addAttributes(objects.fields[0], [voxel](glm::vec3 p) {
+    SurfaceAttributes attributes;
+    attributes.baseColor.w = std::clamp(0.5f + p.x / (4 * voxel), 0.0f, 1.0f);
+    return attributes;
+  });
+  const View view = viewFrom({0, 0.01f, 4}, {0, 0, 0});
+  Lighting sun = darkness();
+  sun.lights.push_back(sunAlong({0, 0, -1}));
+  const FrameLayers layers = objects.trace(view, sun, layersOf(1));
+  int kept = 0, cut = 0;
+  for (std::size_t i = 0; i < layers.id.size(); ++i) {
+    const PrimaryRay ray = primaryRay(view, {static_cast<float>(i % 65) + 0.5f, static_cast<float>(i / 65) + 0.5f});
+    const glm::vec3 o = ray.originWorld, d = ray.directionWorld;
+    const float b = glm::dot(o, d), discriminant = b * b - glm::dot(o, o) + 1.0f;
+    if (discriminant < 0.05f) continue;
+    const glm::vec3 point = o + (-b - std::sqrt(discriminant)) * d;
+    if (std::abs(point.x) < voxel) continue;
+    (point.x > 0 ? kept : cut) += 1;
+    ASSERT_EQ(layers.id[i], point.x > 0 ? 0 : 1) << i;
+    const glm::vec3 onGround = o + (-1 - o.z) / d.z * d;
+    if (point.x < 0 && onGround.x < -voxel) {
+      ASSERT_EQ(layers.shadow.at(0)[i], 1.0f) << i;
+    }
+  }
+  EXPECT_GT(std::min(kept, cut), 200);
+}
+
 // The sphere touches the ground at z = -1: its hard shadow under a vertical sun is the unit disk; a lamp's is a disk of
 // the tangent cone. A border of a hundredth is left out.
 TEST(ReferenceFields, ShadowsFallWhereTheSphereSays) {
