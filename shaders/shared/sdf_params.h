@@ -32,9 +32,9 @@ SHARED_ASSERT_SIZE(SdfLook, 64)
 SHARED_CONST uint SDF_DOUBLE_SIDED = 1;
 
 struct SdfLevel {
-  uvec4 cells;      // x: first indirection cell; y, z, w: bricks along each axis
-  vec4 scale;       // x: level voxels a grid voxel (1, 1/2, 1/4); y: voxels of the stored value 1; z: 1 in the R16 pool;
-                    // w: a texel's part of that pool's depth (to ask a texture for its size costs as much as a read)
+  uvec4 cells; // x: first indirection cell; y, z, w: bricks along each axis
+  vec4 scale;  // x: level voxels a grid voxel (1, 1/2, 1/4); y: voxels of the stored value 1; z: 1 in the R16 pool;
+               // w: a texel's part of that pool's depth (to ask a texture for its size costs as much as a read)
   uvec4 attributes; // x: first cell of the attribute indirection, or SDF_NO_ATTRIBUTES
 };
 SHARED_ASSERT_SIZE(SdfLevel, 48)
@@ -51,7 +51,7 @@ SHARED_CONST uint CELL_BOUND_MASK = 0xffffu;
 
 SHARED_CONST uint BRICK_SAMPLES = 8u;
 SHARED_CONST uint BRICK_CELLS = 7u;
-SHARED_CONST uint BRICK_POOL_SIDE = 64u; // slots along x and y of a pool's textures; a power of two
+SHARED_CONST uint BRICK_POOL_SIDE = 64u;           // slots along x and y of a pool's textures; a power of two
 SHARED_CONST float BRICK_POOL_TEXEL = 1.0 / 512.0; // a texel's part of a pool's width
 
 // A visible object, as the box pass takes it from its instance attribute: index and flags.

@@ -47,7 +47,7 @@ struct FieldCascade {
   ivec4 window; // xyz: lattice of the window's first texel; w: texels along a side, a power of two
   vec4 texel; // x: metres; y: texels a metre; z: largest magnitude stored, texels; w: half a sheet's thickness, texels
   uvec4 buffers; // first x: texel, y: coarse texel, z: tile in the buffers of all cascades; w: FIELD_* flags
-  vec4 extent;   // xyz: texels along each axis, for readers, whom asking textures for their size costs as much as a read
+  vec4 extent; // xyz: texels along each axis, for readers, whom asking textures for their size costs as much as a read
 };
 SHARED_ASSERT_SIZE(FieldCascade, 64)
 
