@@ -59,6 +59,18 @@ TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
     EXPECT_NE(std::find(seen.begin(), seen.end(), name), seen.end()) << name << " is listed and never runs";
 }
 
+TEST_F(FramePasses, MeshesBesideTheViewAreNotDrawn) {
+  const TestScene scene(makeInterpenetration(), "", 16);
+  const auto renderer = scene.makeRenderer(context().info());
+  renderer->render(scene.autoView({64, 36}));
+  const FrameStats seen = renderer->stats();
+  EXPECT_GT(seen.meshDraws, 0u);
+  EXPECT_EQ(seen.meshVisible, seen.meshDraws);
+  renderer->render(makePerspectiveView({0, 0, 50}, {0, 0, 100}, 0.7f, 0.1f, {64, 36}));
+  EXPECT_EQ(renderer->stats().meshDraws, seen.meshDraws);
+  EXPECT_EQ(renderer->stats().meshVisible, 0u);
+}
+
 bool makesField(const std::vector<std::string>& names) {
   return std::any_of(names.begin(), names.end(), [](const std::string& name) {
     return name.starts_with("world_") || name.starts_with("field_") || name.starts_with("rtsdf_") ||
