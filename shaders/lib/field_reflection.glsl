@@ -29,9 +29,9 @@ struct ReflectionMet {
   float grain;
 };
 
-NearDistance readForReflection(vec3 pointAnchored) {
+NearDistance readForReflection(vec3 pointAnchored, float fineMetres) {
   FieldReading reading = readWorldField(pointAnchored);
-  NearDistance refined = refineByBricks(pointAnchored, reading, texelOf(reading));
+  NearDistance refined = refineByBricks(pointAnchored, reading, texelOf(reading), fineMetres);
   reflectionReads += 1u + refined.reads;
   return refined;
 }
@@ -50,7 +50,7 @@ ReflectionMet traceReflection(ReflectionRay ray) {
   for (int i = 0; i < MOST_REFLECTION_READS && t < end; ++i) {
     float lift = REFLECTION_LIFT_GRAINS * ray.grain * max(1.0 - t / (REFLECTION_FADE_GRAINS * ray.grain), 0.0);
     vec3 at = ray.origin + lift * ray.normal + t * ray.direction;
-    NearDistance near = readForReflection(at);
+    NearDistance near = readForReflection(at, spread * t);
     bool isMet = near.distanceWorld <= MET_GRAINS * near.grain;
     float free = isMet ? 0.0 : near.distanceWorld / max(spread * t, LEAST_CONE_GRAINS * near.grain);
     if (free < met.free && !isCutOff(at, near.distanceWorld)) met = ReflectionMet(free, t, at, near.distanceWorld, near.grain);
@@ -66,7 +66,7 @@ vec3 normalOfMet(ReflectionMet met, vec3 direction) {
   float h = 0.5 * met.grain;
   for (int axis = 0; axis < 3; ++axis) {
     vec3 offset = vec3(axis == 0, axis == 1, axis == 2) * h;
-    gradient[axis] = readForReflection(met.point + offset).distanceWorld - readForReflection(met.point - offset).distanceWorld;
+    gradient[axis] = readForReflection(met.point + offset, 0.0).distanceWorld - readForReflection(met.point - offset, 0.0).distanceWorld;
   }
   return dot(gradient, gradient) > 0.0 ? normalize(gradient) : -direction;
 }

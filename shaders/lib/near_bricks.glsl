@@ -1,18 +1,24 @@
 // Exact distances beside surfaces, from the bricks of the objects that the texels around a point say are nearest; what
 // the world field rounds off within a texel they know to a fraction of a voxel. Far from surfaces the field is exact
-// enough and alone.
+// enough and alone; so it is where it says that nothing is as near as its reader could tell from farther.
 //
-//   texels   2        1        0
-//   field  --|========|
-//   bricks            |========|  cross-faded between
-#include "lib/field_objects.glsl"
+//   texels   1 and what the reader tells apart        0
+//   field  --|
+//   bricks   |========================================|  the coarsest voxels that the distance and the reader permit
+#include "lib/bricks.glsl"
 #include "lib/world_field_nodes.glsl"
 
 // For each node: first row of its instances | count << 24; NO_BRICKS where it has none.
 layout(std430, binding = kNodeRowBinding) readonly buffer NodeRowBlock { uint nodeRows[]; };
 
-const float BRICKS_ALONE_TEXELS = 1.0, BRICKS_END_TEXELS = 2.0;
-const int MOST_NEAR_NODES = 4, MOST_NODE_INSTANCES = 8;
+// The field makes things thicker by half a texel, and more where they are thin.
+const float BRICKS_END_TEXELS = 1.0;
+const uint MOST_NODE_INSTANCES = 8u;
+// Level voxels: up to here no corner that weighs in a stored distance is clamped; and nearer than half of that, the next
+// finer level is not clamped either.
+const float UNCLAMPED_VOXELS = 2.8, FINER_VOXELS = 1.4;
+// Of what a reader tells apart: no finer voxels are asked.
+const float FINE_ENOUGH = 0.0;
 
 struct NearDistance {
   float distanceWorld; // metres, negative inside
@@ -20,50 +26,94 @@ struct NearDistance {
   uint reads;
 };
 
+// The rows of the nodes that the eight texels around a place name, as in nodeRows; 0: no more. None where one of them
+// has no bricks or there are more than four. Kept while a ray stays between the same texels.
+uvec4 rowsBetweenTexels = uvec4(0u);
+uint lowestTexelWord = FIELD_NONE; // whose they are
+
+void findRows(FieldCascade cascade, ivec3 lowest) {
+  uint word = texelWord(cascade, lowest);
+  if (word == lowestTexelWord) return;
+  lowestTexelWord = word;
+  rowsBetweenTexels = uvec4(0u);
+  uvec4 known = uvec4(0u), rows = uvec4(0u);
+  for (int corner = 0; corner < 8; ++corner) {
+    uint node = worldFieldNodes[texelWord(cascade, lowest + ivec3(corner & 1, corner >> 1 & 1, corner >> 2))] & FIELD_NODE_MASK;
+    if (node == 0u) return;
+    if (any(equal(known, uvec4(node)))) continue;
+    uint row = nodeRows[node - 1u];
+    if (known.w != 0u || row == NO_BRICKS) return;
+    known = uvec4(node, known.xyz);
+    rows = uvec4(row, rows.xyz);
+  }
+  rowsBetweenTexels = rows;
+}
+
+vec3 timesGridRows(uint row, vec3 wayAnchored) {
+  return vec3(dot(sdfInstances[row].gridFromWorld[0].xyz, wayAnchored), dot(sdfInstances[row].gridFromWorld[1].xyz, wayAnchored),
+              dot(sdfInstances[row].gridFromWorld[2].xyz, wayAnchored));
+}
+
+// Grid voxels, negative inside; y: of the level that was read, grid voxels. First from the finest level that is not
+// clamped if the field is right; from coarser ones where it is wrong, from finer ones where these can tell more.
+//
+// metresOfVoxel  least (x) and most (y)
+vec2 readFineEnough(int firstLevel, int levels, vec3 pointGrid, float metres, vec2 metresOfVoxel, float fineMetres, inout uint reads) {
+  vec2 found = vec2(0.0);
+  int i = clamp(int(ceil(log2(abs(metres) / (UNCLAMPED_VOXELS * metresOfVoxel.x) + 1e-3))), 0, levels - 1), way = 0;
+  for (;;) {
+    SdfLevel level = sdfLevels[firstLevel + i];
+    vec3 pointLevel = clamp(pointGrid * level.scale.x, vec3(0.0), vec3(level.cells.yzw * BRICK_CELLS));
+    ivec3 brick = brickOfPoint(level, pointLevel);
+    uint cell = cellOfBrick(level.cells.x, level, brick);
+    bool isEmpty = (cell & CELL_EMPTY) != 0u, isLast = i == levels - 1;
+    float voxels = isEmpty ? boundOfCell(cell) : brickDistance(level, cell, pointLevel - vec3(brick) * float(BRICK_CELLS));
+    if (!isEmpty || isLast) ++reads;
+    if (!isLast && (isEmpty || abs(voxels) > UNCLAMPED_VOXELS)) {
+      if (way < 0) break;
+      way = 1;
+    } else {
+      found = vec2(voxels, 1.0) / level.scale.x;
+      bool isFar = abs(voxels) > FINER_VOXELS && metresOfVoxel.x * abs(found.x) > fineMetres;
+      if (i == 0 || way > 0 || isFar || metresOfVoxel.y * found.y < FINE_ENOUGH * fineMetres) break;
+      way = -1;
+    }
+    i += way;
+  }
+  return found;
+}
+
 // The distance to one object. Beyond its box it lies between two bounds, and the field tells where.
-void joinObject(uint row, vec3 pointAnchored, float metres, inout NearDistance nearest) {
-  SdfInstance instance = sdfInstances[row];
-  vec3 gridOrigin = vec3(instance.worldFromGrid[0].w, instance.worldFromGrid[1].w, instance.worldFromGrid[2].w);
-  FieldObject object = FieldObject(instance, gridOrigin - field.anchor.xyz, 0, 1.0, 0.0, true);
-  vec3 pointGrid = gridPoint(object, pointAnchored), q = clampToBox(instance, pointGrid);
-  float outer = distance(pointGrid, q), least = instance.boxMax.w, most = instance.boxMin.w;
+void joinObject(uint row, vec3 pointAnchored, float metres, float fineMetres, inout NearDistance nearest) {
+  vec3 gridOrigin = vec3(sdfInstances[row].worldFromGrid[0].w, sdfInstances[row].worldFromGrid[1].w, sdfInstances[row].worldFromGrid[2].w);
+  vec4 boxMin = sdfInstances[row].boxMin, boxMax = sdfInstances[row].boxMax;
+  vec3 pointGrid = timesGridRows(row, pointAnchored - (gridOrigin - field.anchor.xyz)), q = clamp(pointGrid, boxMin.xyz, boxMax.xyz);
+  float outer = distance(pointGrid, q), least = boxMax.w, most = boxMin.w;
   if (least * outer > abs(metres) + most) return; // no nearer than the field says, and a voxel
-  ++nearest.reads;
-  BrickReading reading = readObject(object, q);
-  float lower = outer > 0.0 ? least * length(vec2(max(reading.grid, 0.0), outer)) : min(least * reading.grid, most * reading.grid);
-  float upper = outer > 0.0 ? most * (max(reading.grid, 0.0) + outer) : max(least * reading.grid, most * reading.grid);
+  ivec4 ids = sdfInstances[row].ids;
+  vec2 read = readFineEnough(ids.y, ids.z, q, metres, vec2(least, most), fineMetres, nearest.reads);
+  float lower = outer > 0.0 ? least * length(vec2(max(read.x, 0.0), outer)) : min(least * read.x, most * read.x);
+  float upper = outer > 0.0 ? most * (max(read.x, 0.0) + outer) : max(least * read.x, most * read.x);
   float found = clamp(metres, lower, upper);
   if (found >= nearest.distanceWorld) return;
   nearest.distanceWorld = found;
-  nearest.grain = most * reading.voxel;
+  nearest.grain = most * read.y;
 }
 
 // What was read of one cascade, made exact where all objects around have bricks.
-NearDistance refineByBricks(vec3 pointAnchored, FieldReading reading, float texel) {
+//
+// fineMetres  what the reader tells apart: distances beyond it are all the same to it
+NearDistance refineByBricks(vec3 pointAnchored, FieldReading reading, float texel, float fineMetres) {
   NearDistance refined = NearDistance(reading.distanceWorld, texel, 0u);
-  float share = (BRICKS_END_TEXELS - abs(reading.distanceWorld) / texel) / (BRICKS_END_TEXELS - BRICKS_ALONE_TEXELS);
-  if (share <= 0.0 || reading.cascade < 0) return refined;
+  if (reading.cascade < 0 || abs(reading.distanceWorld) > BRICKS_END_TEXELS * texel + fineMetres) return refined;
   FieldCascade cascade = field.cascades[reading.cascade];
-  ivec3 lowest = ivec3(floor(pointAnchored * cascade.texel.y - 0.5));
-  uint known[MOST_NEAR_NODES];
-  int count = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    uint node = worldFieldNodes[texelWord(cascade, lowest + ivec3(corner & 1, corner >> 1 & 1, corner >> 2))] & FIELD_NODE_MASK;
-    bool isKnown = false;
-    for (int i = 0; i < count; ++i) isKnown = isKnown || known[i] == node;
-    if (isKnown) continue;
-    if (node == 0u || count == MOST_NEAR_NODES || nodeRows[node - 1u] == NO_BRICKS) return refined;
-    known[count++] = node;
-  }
+  findRows(cascade, ivec3(floor(pointAnchored * cascade.texel.y - 0.5)));
   NearDistance nearest = NearDistance(3.4e38, texel, 0u);
-  for (int i = 0; i < count; ++i) {
-    uint rows = nodeRows[known[i] - 1u], first = rows & 0xffffffu, end = first + min(rows >> 24, uint(MOST_NODE_INSTANCES));
-    for (uint row = first; row < end; ++row) joinObject(row, pointAnchored, reading.distanceWorld, nearest);
+  for (int i = 0; i < 4 && rowsBetweenTexels[i] != 0u; ++i) {
+    uint first = rowsBetweenTexels[i] & 0xffffffu, end = first + min(rowsBetweenTexels[i] >> 24, MOST_NODE_INSTANCES);
+    for (uint row = first; row < end; ++row) joinObject(row, pointAnchored, reading.distanceWorld, fineMetres, nearest);
   }
   refined.reads = nearest.reads;
   if (nearest.distanceWorld > 3e38) return refined;
-  share = min(share, 1.0);
-  refined.distanceWorld = mix(reading.distanceWorld, nearest.distanceWorld, share);
-  refined.grain = mix(texel, nearest.grain, share);
-  return refined;
+  return nearest;
 }

@@ -21,6 +21,7 @@ struct ShadowCone {
   float end;    // metres: the light is there, or the field ends
   float lightAt; // metres: the light is there; 3.4e38 for suns
   float grain;  // metres, of what is read at the origin
+  float pixel;  // metres that a pixel spans at the origin, at most
 };
 
 // Metres.
@@ -35,10 +36,19 @@ void axesAcross(vec3 axis, out vec3 right, out vec3 up) {
 }
 
 // Where a light's i-th part of `count` equal ones is, in units of the half axes: Vogel's spiral over the disk, a lattice
-// by the golden ratio's plastic cousin over the rectangle (Roberts 2018).
-vec2 partOfLight(ShadowCone cone, int i, int count) {
+// by the golden ratio's plastic cousin over the rectangle (Roberts 2018). The cells of a square of two by two pixels have
+// other places in the parts, so that together they have four times as many.
+//
+// cell  0 to 3; of one alone any
+vec2 partOfLight(ShadowCone cone, int i, int count, int cell) {
   if (count == 1) return vec2(0.0);
-  if (cone.isRectangle) return 2.0 * fract(0.5 + float(i + 1) * vec2(0.7548776662, 0.5698402910)) - 1.0;
+  if (cone.isRectangle) return 2.0 * fract(0.5 + float(cell * count + i + 1) * vec2(0.7548776662, 0.5698402910)) - 1.0;
+  float radius = sqrt((float(i) + 0.25 * float(cell) + 0.125) / float(count)), angle = 2.39996323 * float(i) + 1.57079633 * float(cell);
+  return radius * vec2(cos(angle), sin(angle));
+}
+
+vec2 partOfLight(ShadowCone cone, int i, int count) {
+  if (count == 1 || cone.isRectangle) return partOfLight(cone, i, count, 0);
   float radius = sqrt((float(i) + 0.5) / float(count)), angle = 2.39996323 * float(i);
   return radius * vec2(cos(angle), sin(angle));
 }

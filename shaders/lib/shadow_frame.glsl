@@ -9,7 +9,7 @@
 #include "lib/shadow_region.glsl"
 #include "shared/sdf_params.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = GROUP_WIDTH, local_size_y = GROUP_HEIGHT) in; // by whoever includes this, even numbers
 
 layout(std430, binding = kLightBinding) readonly buffer LightBlock { LightRow lights[]; };
 layout(binding = kShadowHalfUnit) uniform sampler2D shadow_half_read;
@@ -23,7 +23,11 @@ const uint STEP_ALL = 0u, STEP_HALF = 1u, STEP_FILL = 2u;
 uniform uint resolutionStep;
 
 // How much of the light the cone leads to.
-float visibleShare(ShadowCone cone, ivec2 pixel, int light);
+//
+// cell  of the pixel, see partOfLight
+float visibleShare(ShadowCone cone, int light, ivec2 pixel, int cell);
+// Of what was asked last: it is the mean over parts of the light that the pixel's cell chose.
+bool isOfCell();
 // Distances that this thread read.
 uint readsOfThread();
 // Metres: what a reading there is not finer than.
@@ -82,45 +86,61 @@ ShadowCone coneTo(LightRow light, ShadowedPixel pixel) {
   return cone;
 }
 
-float marchLight(int number, ShadowCone cone, ivec2 pixel, float grain) {
+float marchLight(int number, ShadowCone cone, ivec2 pixel, int cell, float grain) {
   cone.grain = coarsenedGrain(cone.origin, cone.axis, grain);
   float before = cone.isRectangle ? grain : lights[number].intensity.w; // the light begins
   cone.end = min(max(cone.lightAt - before, 0.0), leavesField(cone.origin, cone.axis));
-  return visibleShare(cone, pixel, number);
+  return visibleShare(cone, number, pixel, cell);
 }
 
-vec4 marchPixel(ivec2 pixel) {
+// pixelMetres  that a pixel spans on the surface, at most
+// isWide       of which lights the penumbra there is so wide that a square of two by two pixels may share it
+vec4 marchPixel(ivec2 pixel, int cell, ShadowedPixel surface, float pixelMetres, out bvec4 isWide) {
   vec4 visible = vec4(1.0);
-  ShadowedPixel surface = shadowedPixel(pixel);
+  isWide = bvec4(false);
   if (!surface.isSurface) return visible;
   float grain = -1.0; // read once something is marched
   for (int i = 0; i < min(int(frame.size.z), MOST_SHADOWED_LIGHTS); ++i) {
     ShadowCone cone = coneTo(lights[i], surface);
+    cone.pixel = pixelMetres;
 #ifdef MAPS_DECIDE
     visible[i] = shareByMaps(i, cone, surface.pointEye);
     if (visible[i] != MAP_UNSURE) continue;
 #endif
     if (grain < 0.0) grain = grainAt(cone.origin);
-    visible[i] = marchLight(i, cone, pixel, grain);
+    visible[i] = marchLight(i, cone, pixel, cell, grain);
+    isWide[i] = isOfCell();
   }
   return visible;
 }
 
+// Along the surface away from the eye, where it is longest.
+float pixelMetresOn(ShadowedPixel surface, ivec2 pixel) {
+  const float LEAST_COSINE = 0.02;
+  vec3 originEye, directionWorld;
+  viewRay(ndcFromPixel(vec2(pixel) + 0.5), originEye, directionWorld);
+  float across = 2.0 / (frame.projection.y * float(frame.size.y)) * (frame.projection.z > 0.5 ? 1.0 : surface.away);
+  if (resolutionStep == STEP_HALF) across *= 2.0;
+  return across / max(-dot(surface.normal, directionWorld), LEAST_COSINE);
+}
+
+bool isOnPlane(ShadowedPixel surface, vec3 pointEye, vec3 normal) {
+  const float PLANE = 0.004, SAME_NORMAL = 0.96;
+  return dot(surface.normal, normal) >= SAME_NORMAL && abs(dot(surface.normal, pointEye - surface.pointEye)) <= PLANE * surface.away;
+}
+
 // Of the neighbours that were marched, by how near they are in the picture. False: none is on the pixel's plane, or
 // they are too far apart.
-bool fillPixel(ivec2 pixel, out vec4 visible) {
-  const float PLANE = 0.004, SAME_NORMAL = 0.96, MOST_DIFFERENCE = 0.1;
+bool fillPixel(ivec2 pixel, ShadowedPixel surface, out vec4 visible) {
+  const float MOST_DIFFERENCE = 0.1;
   ivec2 first = pixel >> 1, last = textureSize(shadow_half_read, 0) - 1;
-  ShadowedPixel surface = shadowedPixel(pixel);
   vec4 sum = vec4(0.0), least = vec4(1.0), most = vec4(0.0);
   float weights = 0.0;
   for (int i = 0; i < 4; ++i) {
     ivec2 at = min(first + ivec2(i & 1, i >> 1) * (pixel & 1), last);
     ShadowedPixel other = shadowedPixel(2 * at);
     if (other.isSurface != surface.isSurface) continue;
-    if (surface.isSurface && (dot(surface.normal, other.normal) < SAME_NORMAL ||
-                              abs(dot(surface.normal, other.pointEye - surface.pointEye)) > PLANE * surface.away))
-      continue;
+    if (surface.isSurface && !isOnPlane(surface, other.pointEye, other.normal)) continue;
     vec4 value = texelFetch(shadow_half_read, at, 0);
     sum += value;
     weights += 1.0;
@@ -131,12 +151,43 @@ bool fillPixel(ivec2 pixel, out vec4 visible) {
   return weights > 0.0 && all(lessThan(most - least, vec4(MOST_DIFFERENCE)));
 }
 
+// Of a square of two by two pixels, each of which asked for other parts of the lights, the mean of those on the pixel's
+// plane whose penumbrae are wide; what is sharp stays so.
+shared vec4 squareVisible[GROUP_WIDTH * GROUP_HEIGHT];
+shared vec4 squarePoint[GROUP_WIDTH * GROUP_HEIGHT];  // eye space; w: a bit for each light whose penumbra is wide
+shared vec3 squareNormal[GROUP_WIDTH * GROUP_HEIGHT];
+
+vec4 meanOfSquare(ShadowedPixel surface, vec4 visible, bvec4 isWide) {
+  int at = int(gl_LocalInvocationIndex);
+  squareVisible[at] = visible;
+  squarePoint[at] = vec4(surface.pointEye, dot(vec4(isWide), vec4(1.0, 2.0, 4.0, 8.0)));
+  squareNormal[at] = surface.normal;
+  barrier();
+  vec4 sum = visible, weights = vec4(1.0);
+  for (int i = 1; i < 4; ++i) {
+    int other = at ^ ((i & 1) + GROUP_WIDTH * (i >> 1));
+    int bits = int(squarePoint[other].w);
+    if (bits == 0 || !any(isWide) || !isOnPlane(surface, squarePoint[other].xyz, squareNormal[other])) continue;
+    vec4 weight = vec4(isWide) * vec4(bits & 1, bits >> 1 & 1, bits >> 2 & 1, bits >> 3 & 1);
+    sum += weight * squareVisible[other];
+    weights += weight;
+  }
+  return sum / weights;
+}
+
 void main() {
   ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(at, imageSize(shadow)))) return;
+  bool isInPicture = all(lessThan(at, imageSize(shadow)));
   ivec2 pixel = resolutionStep == STEP_HALF ? 2 * at : at;
-  vec4 visible;
-  if (resolutionStep != STEP_FILL || !fillPixel(pixel, visible)) visible = marchPixel(pixel);
+  ShadowedPixel surface = ShadowedPixel(vec3(0.0), vec3(0.0), 0.0, false);
+  if (isInPicture) surface = shadowedPixel(pixel);
+  vec4 visible = vec4(1.0);
+  bvec4 isWide = bvec4(false);
+  if (isInPicture && (resolutionStep != STEP_FILL || !fillPixel(pixel, surface, visible))) {
+    visible = marchPixel(pixel, (at.x & 1) + 2 * (at.y & 1), surface, pixelMetresOn(surface, pixel), isWide);
+  }
+  visible = meanOfSquare(surface, visible, isWide);
+  if (!isInPicture) return;
 #ifdef COUNTERS_ON
   atomicAdd(counters[COUNTER_SHADOW_READS], readsOfThread());
   bool isKept = resolutionStep == STEP_FILL && all(equal(pixel & 1, ivec2(0))); // marched by the step before

@@ -41,7 +41,7 @@ vec4 lightsSeen(vec3 pointAnchored, vec3 normal) {
 
 uvec4 tracedCode(ivec2 place, ReflectedPixel pixel) {
   vec3 origin = pixel.pointEye + frame.eyeAnchored.xyz;
-  float grain = readForReflection(origin).grain;
+  float grain = readForReflection(origin, 0.0).grain;
   float spread = length(vec2(spreadOfRoughness(pixel.roughness), turnOfPixel(place, pixel)));
   ReflectionMet met = traceReflection(ReflectionRay(origin, pixel.normal, pixel.direction, spread, grain));
   ReflectionHit hit = ReflectionHit(met.t, met.free, -pixel.direction, 0u, false, ivec2(0), vec4(1.0));

@@ -1,11 +1,13 @@
 // Soft shadows of the first lights by the world field alone.
 #include "lib/field_shadow.glsl"
+// One warp: the barrier of the mean waits for nobody.
+const int GROUP_WIDTH = 8, GROUP_HEIGHT = 4;
 #include "lib/shadow_frame.glsl"
 
 uniform int raysOfPenumbra;
 uniform float softness;
 
-ShadowReading readForShadow(vec3 pointAnchored) {
+ShadowReading readForShadow(vec3 pointAnchored, float fineMetres) {
   ++shadowReads;
   FieldReading reading = readWorldField(pointAnchored);
   return ShadowReading(reading.distanceWorld, texelOf(reading));
@@ -14,4 +16,5 @@ ShadowReading readForShadow(vec3 pointAnchored) {
 uint readsOfThread() { return shadowReads; }
 float grainAt(vec3 pointAnchored) { return texelOf(readWorldField(pointAnchored)); }
 float coarsestGrain(vec3 pointAnchored, float grain) { return grain; }
-float visibleShare(ShadowCone cone, ivec2 pixel, int light) { return shadowOf(cone, raysOfPenumbra, softness); }
+float visibleShare(ShadowCone cone, int light, ivec2 pixel, int cell) { return shadowOf(cone, raysOfPenumbra, softness, cell); }
+bool isOfCell() { return isMeanOfCell; }

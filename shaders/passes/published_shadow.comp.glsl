@@ -1,5 +1,7 @@
 // Shadows of the first lights by the estimators of others.
 #include "lib/published_shadows.glsl"
+// One warp, as field_shadow.comp.glsl.
+const int GROUP_WIDTH = 8, GROUP_HEIGHT = 4;
 #include "lib/shadow_frame.glsl"
 
 uniform uint estimator; // ESTIMATOR_*
@@ -10,7 +12,8 @@ uniform uint seed;
 uint readsOfThread() { return shadowReads; }
 float grainAt(vec3 pointAnchored) { return texelOf(readWorldField(pointAnchored)); }
 float coarsestGrain(vec3 pointAnchored, float grain) { return grain; }
-float visibleShare(ShadowCone cone, ivec2 pixel, int light) {
+bool isOfCell() { return false; }
+float visibleShare(ShadowCone cone, int light, ivec2 pixel, int cell) {
   FieldCascade coarsest = field.cascades[int(field.counts.x) - 1];
   float step = mostStep * 0.5 * float(coarsest.window.w) * coarsest.texel.x;
   return publishedShadow(cone, estimator, raysOfPenumbra, step, uvec3(pixel, seed + 31u * uint(light)));
