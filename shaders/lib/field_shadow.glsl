@@ -36,6 +36,8 @@ struct ShadowReading {
 //
 // fineMetres  what is told apart: distances beyond it are all the same but for steps
 ShadowReading readForShadow(vec3 pointAnchored, float fineMetres);
+// Metres to the objects with bricks that the last reading was of, near it; much where it was of the field alone.
+float distanceToRead(vec3 pointAnchored, float most);
 
 // Where the middle of the cone is after t metres.
 vec3 onAxis(ShadowCone cone, float t) {
@@ -50,6 +52,20 @@ vec2 wayInBall(float ball, float radius, float spread) {
   return vec2(reach - along, reach + along) / a;
 }
 
+// Whether an object that the first reading was of, a saucer over the floor, lies between the surface and where the cone
+// begins: from there back down, as far as the surface itself cannot be meant.
+bool isLiftedThrough(ShadowCone cone, ShadowReading first) {
+  const float LEAST_STEP = 0.1, OWN_SURFACE_GRAINS = 2.0;
+  float lift = LIFT_GRAINS * cone.grain, above = lift, ball = first.distanceWorld;
+  for (int i = 0; i < 10; ++i) {
+    above -= max(ball, LEAST_STEP * lift);
+    if (above < OWN_SURFACE_GRAINS * first.grain) return false;
+    ball = distanceToRead(cone.origin + above * cone.normal, lift);
+    if (ball < 0.0) return true;
+  }
+  return false;
+}
+
 // Steps go farther than a ball (Keinert and others 2014): where the next ball does not reach back to it, they go back.
 //
 // returns metres along the axis where the cone is first touched; LIT, DARK: it is free, or all of it is blocked
@@ -60,6 +76,7 @@ float traceCone(ShadowCone cone) {
     float radius = cone.spread * t;
     ShadowReading reading = readForShadow(onAxis(cone, t), radius);
     float ball = reading.distanceWorld, touch = max(radius, LEAST_WIDTH_GRAINS * reading.grain);
+    if (i == 0 && reading.grain < cone.grain && isLiftedThrough(cone, reading)) return DARK;
     vec2 way = wayInBall(ball, radius, cone.spread);
     if (t > sure && (ball < touch || t - way.y > sure)) {
       t = sure;

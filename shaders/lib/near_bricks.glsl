@@ -100,6 +100,14 @@ void joinObject(uint row, vec3 pointAnchored, float metres, float fineMetres, in
   nearest.grain = most * read.y;
 }
 
+// The least distance to the objects whose rows were found last.
+void joinRows(vec3 pointAnchored, float metres, float fineMetres, inout NearDistance nearest) {
+  for (int i = 0; i < 4 && rowsBetweenTexels[i] != 0u; ++i) {
+    uint first = rowsBetweenTexels[i] & 0xffffffu, end = first + min(rowsBetweenTexels[i] >> 24, MOST_NODE_INSTANCES);
+    for (uint row = first; row < end; ++row) joinObject(row, pointAnchored, metres, fineMetres, nearest);
+  }
+}
+
 // What was read of one cascade, made exact where all objects around have bricks.
 //
 // fineMetres  what the reader tells apart: distances beyond it are all the same to it
@@ -109,10 +117,7 @@ NearDistance refineByBricks(vec3 pointAnchored, FieldReading reading, float texe
   FieldCascade cascade = field.cascades[reading.cascade];
   findRows(cascade, ivec3(floor(pointAnchored * cascade.texel.y - 0.5)));
   NearDistance nearest = NearDistance(3.4e38, texel, 0u);
-  for (int i = 0; i < 4 && rowsBetweenTexels[i] != 0u; ++i) {
-    uint first = rowsBetweenTexels[i] & 0xffffffu, end = first + min(rowsBetweenTexels[i] >> 24, MOST_NODE_INSTANCES);
-    for (uint row = first; row < end; ++row) joinObject(row, pointAnchored, reading.distanceWorld, fineMetres, nearest);
-  }
+  joinRows(pointAnchored, reading.distanceWorld, fineMetres, nearest);
   refined.reads = nearest.reads;
   if (nearest.distanceWorld > 3e38) return refined;
   return nearest;

@@ -15,6 +15,13 @@ ShadowReading readForShadow(vec3 pointAnchored, float fineMetres) {
   return ShadowReading(refined.distanceWorld, refined.grain);
 }
 
+float distanceToRead(vec3 pointAnchored, float most) {
+  NearDistance nearest = NearDistance(3.4e38, 0.0, 0u);
+  joinRows(pointAnchored, most, 0.0, nearest);
+  shadowReads += nearest.reads;
+  return nearest.distanceWorld;
+}
+
 uint readsOfThread() { return shadowReads; }
 float grainAt(vec3 pointAnchored) {
   FieldReading reading = readWorldField(pointAnchored);

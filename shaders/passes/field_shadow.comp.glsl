@@ -13,6 +13,8 @@ ShadowReading readForShadow(vec3 pointAnchored, float fineMetres) {
   return ShadowReading(reading.distanceWorld, texelOf(reading));
 }
 
+float distanceToRead(vec3 pointAnchored, float most) { return 3.4e38; }
+
 uint readsOfThread() { return shadowReads; }
 float grainAt(vec3 pointAnchored) { return texelOf(readWorldField(pointAnchored)); }
 float coarsestGrain(vec3 pointAnchored, float grain) { return grain; }

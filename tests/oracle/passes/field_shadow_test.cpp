@@ -113,6 +113,33 @@ TEST_F(FieldShadow, LitFloorsAreLitAndUmbraeAreDark) {
   EXPECT_EQ(leaking, 0u);
 }
 
+// Rays begin a texel of the field above the floor: higher than an object's plate that hides the sun there.
+TEST_F(FieldShadow, PlatesLowerThanWhereRaysBeginHideTheSun) {
+  for (const float bottom : {0.008f, 0.011f, 0.014f}) {
+    constexpr float kPlateHalf = 0.0025f;
+    Scene built = slabOverFloor();
+    built.nodes[1].name = "Plate";
+    built.nodes[1].matrix = glm::translate(glm::mat4(1), {0, bottom + kPlateHalf, 0});
+    built.meshes[1] = makeBoxMesh({0.3f, kPlateHalf, 0.3f});
+    const TestScene scene(std::move(built), "Plate", 256);
+    const auto renderer = scene.makeRenderer(context().info(), marching(128));
+    renderer->setLighting(overheadSun(scene, 0.5));
+    const float eye = 0.6f * bottom;
+    const View view = scene.view({1, eye, 0}, {0, eye, 0}, kSize, 5);
+    renderer->render(view);
+    std::size_t covered = 0, leaking = 0, free = 0, dark = 0;
+    for (const FloorSample& sample : floorSamples(view, renderer->readLayers())) {
+      const double away = std::max(std::abs(sample.x), std::abs(sample.z));
+      if (away < 0.28) ++covered, leaking += sample.visible > 0.02;
+      if (away > 0.35) ++free, dark += sample.visible < 0.98;
+    }
+    ASSERT_GT(covered, 300u);
+    ASSERT_GT(free, 1000u);
+    EXPECT_EQ(leaking, 0u) << "of " << covered << ", plate " << bottom << " m above";
+    EXPECT_LE(dark, free / 1000) << "of " << free;
+  }
+}
+
 TEST_F(FieldShadow, TwoRunsAreTheSameBytes) {
   std::vector<std::vector<float>> shadows;
   for (int run = 0; run < 2; ++run) {
