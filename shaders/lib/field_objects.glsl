@@ -64,14 +64,11 @@ BrickReading readObject(FieldObject object, vec3 pointGrid) {
   return reading;
 }
 
-// From the coarsest level: of all places by reads that wait for each other no longer than one does.
-BrickReading readCoarsest(FieldObject object, vec3 pointGrid) {
-  BrickReading reading;
-  reading.level = sdfLevels[object.instance.ids.y + object.instance.ids.z - 1];
-  reading.voxel = 1.0 / reading.level.scale.x;
-  reading.pointLevel = clamp(pointGrid * reading.level.scale.x, vec3(0.0), vec3(reading.level.cells.yzw * BRICK_CELLS));
-  reading.grid = fieldDistance(reading.level, reading.pointLevel) * reading.voxel;
-  return reading;
+// Grid voxels, negative inside, from the coarsest level, which is clamped nowhere: reads of several places need not wait
+// for each other's levels.
+float coarsestDistance(FieldObject object, vec3 pointGrid) {
+  SdfLevel level = sdfLevels[object.instance.ids.y + object.instance.ids.z - 1];
+  return fieldDistance(level, pointGrid * level.scale.x) / level.scale.x;
 }
 
 struct SurfacePoint {
@@ -198,12 +195,11 @@ bool lookAround(FieldObject object, ObjectDistance known, inout SurfacePoint sur
   float least = 1e30, texelGrid = object.texelMetres / object.instance.boxMin.w;
   bool isNearer = false;
   vec3 at = from;
-  BrickReading nearest = readCoarsest(object, from);
-  if (known.side * nearest.grid > size - CERTAIN_TEXELS * texelGrid) return false;
+  if (known.side * coarsestDistance(object, from) > size - CERTAIN_TEXELS * texelGrid) return false;
   for (int i = 0; i < 4; ++i) {
     vec3 beside = (i < 2 ? right : up) * ((i & 1) == 0 ? 1.0 : -1.0);
     vec3 x = clampToBox(object.instance, from + 0.35355339 * (back + beside));
-    float inner = known.side * readCoarsest(object, x).grid, sum = distance(known.pointGrid, x) + inner;
+    float inner = known.side * coarsestDistance(object, x), sum = distance(known.pointGrid, x) + inner;
     if (sum >= least) continue;
     least = sum;
     at = x;

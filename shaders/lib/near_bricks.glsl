@@ -17,8 +17,6 @@ const uint MOST_NODE_INSTANCES = 8u;
 // Level voxels: up to here no corner that weighs in a stored distance is clamped; and nearer than half of that, the next
 // finer level is not clamped either.
 const float UNCLAMPED_VOXELS = 2.8, FINER_VOXELS = 1.4;
-// Of what a reader tells apart: no finer voxels are asked.
-const float FINE_ENOUGH = 0.0;
 
 struct NearDistance {
   float distanceWorld; // metres, negative inside
@@ -57,10 +55,10 @@ vec3 timesGridRows(uint row, vec3 wayAnchored) {
 // Grid voxels, negative inside; y: of the level that was read, grid voxels. First from the finest level that is not
 // clamped if the field is right; from coarser ones where it is wrong, from finer ones where these can tell more.
 //
-// metresOfVoxel  least (x) and most (y)
-vec2 readFineEnough(int firstLevel, int levels, vec3 pointGrid, float metres, vec2 metresOfVoxel, float fineMetres, inout uint reads) {
+// leastMetres  that a grid voxel spans
+vec2 readFineEnough(int firstLevel, int levels, vec3 pointGrid, float metres, float leastMetres, float fineMetres, inout uint reads) {
   vec2 found = vec2(0.0);
-  int i = clamp(int(ceil(log2(abs(metres) / (UNCLAMPED_VOXELS * metresOfVoxel.x) + 1e-3))), 0, levels - 1), way = 0;
+  int i = clamp(int(ceil(log2(abs(metres) / (UNCLAMPED_VOXELS * leastMetres) + 1e-3))), 0, levels - 1), way = 0;
   for (;;) {
     SdfLevel level = sdfLevels[firstLevel + i];
     vec3 pointLevel = clamp(pointGrid * level.scale.x, vec3(0.0), vec3(level.cells.yzw * BRICK_CELLS));
@@ -74,8 +72,8 @@ vec2 readFineEnough(int firstLevel, int levels, vec3 pointGrid, float metres, ve
       way = 1;
     } else {
       found = vec2(voxels, 1.0) / level.scale.x;
-      bool isFar = abs(voxels) > FINER_VOXELS && metresOfVoxel.x * abs(found.x) > fineMetres;
-      if (i == 0 || way > 0 || isFar || metresOfVoxel.y * found.y < FINE_ENOUGH * fineMetres) break;
+      bool isFar = abs(voxels) > FINER_VOXELS && leastMetres * abs(found.x) > fineMetres;
+      if (i == 0 || way > 0 || isFar) break;
       way = -1;
     }
     i += way;
@@ -91,7 +89,7 @@ void joinObject(uint row, vec3 pointAnchored, float metres, float fineMetres, in
   float outer = distance(pointGrid, q), least = boxMax.w, most = boxMin.w;
   if (least * outer > abs(metres) + most) return; // no nearer than the field says, and a voxel
   ivec4 ids = sdfInstances[row].ids;
-  vec2 read = readFineEnough(ids.y, ids.z, q, metres, vec2(least, most), fineMetres, nearest.reads);
+  vec2 read = readFineEnough(ids.y, ids.z, q, metres, least, fineMetres, nearest.reads);
   float lower = outer > 0.0 ? least * length(vec2(max(read.x, 0.0), outer)) : min(least * read.x, most * read.x);
   float upper = outer > 0.0 ? most * (max(read.x, 0.0) + outer) : max(least * read.x, most * read.x);
   float found = clamp(metres, lower, upper);
