@@ -74,6 +74,18 @@ SHARED_CONST uint BOX_COMMAND_FACING = 0;
 SHARED_CONST uint BOX_COMMAND_NEAR_PLANE = 1;
 SHARED_CONST uint BOX_COMMANDS = 2;
 
+// The pixels that a visible object's box may touch, first and last x | y << 16, and a distance from the eye before
+// which none of it lies.
+struct ScreenBox {
+  uint first;
+  uint last;
+  uint entry;    // of the list of visible objects
+  float nearest; // metres
+};
+SHARED_ASSERT_SIZE(ScreenBox, 16)
+
+SHARED_CONST uint SDF_TILE_PIXELS = 16u; // of a tile's side; on an H200 faster than 8 and 4
+
 // Counters of a frame (storage buffer, one uint each).
 SHARED_CONST uint COUNTER_FRAGMENTS = 0;
 SHARED_CONST uint COUNTER_HITS = 1;

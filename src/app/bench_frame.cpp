@@ -27,8 +27,8 @@ struct ThesisTimes {
 };
 
 ThesisTimes thesisTimesOf(const Json& medians) {
-  static constexpr std::array<std::string_view, 6> kPrimary{"deform", "clear",      "sdf_cull",
-                                                            "mesh",   "depth_copy", "sdf_box"};
+  static constexpr std::array<std::string_view, 8> kPrimary{"deform",     "clear",   "sdf_cull",         "mesh",
+                                                            "depth_copy", "sdf_box", "sdf_screen_boxes", "sdf_tiles"};
   ThesisTimes times;
   for (const auto& [name, value] : medians.items()) {
     const double milliseconds = value;
@@ -117,10 +117,11 @@ void printFigures(const Json& stats, const Json& perPixel) {
   fmt::print("\n");
 }
 
-RenderRun measure(const RenderRequest& request, const LoadedRender& loaded) {
+RenderRun measure(RenderRequest& request, const LoadedRender& loaded) {
   RenderRun run;
   Renderer renderer(loaded.context->info());
   renderer.setScene(loaded.scene, loaded.baked.fields);
+  settleTrace(request, loaded, renderer);
   renderer.setSettings(rendererSettingsOf(request));
   const auto drawFirst = [&](int) {
     throwIfInterrupted();

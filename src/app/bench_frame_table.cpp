@@ -27,8 +27,8 @@ struct FrameColumn {
 
 // The exact field has no voxels, floods or rays; its three stages stand where they take the place of those.
 std::size_t rowOf(const std::string& pass) {
-  static constexpr std::array<std::array<std::string_view, 5>, 5> kPasses{
-      {{"clear", "sdf_cull", "mesh", "depth_copy", "sdf_box"},
+  static constexpr std::array<std::array<std::string_view, 7>, 5> kPasses{
+      {{"clear", "sdf_cull", "mesh", "depth_copy", "sdf_box", "sdf_screen_boxes", "sdf_tiles"},
        {"rtsdf_voxelize", "field_splat"},
        {"rtsdf_jump_flood", "field_candidates"},
        {"rtsdf_rays", "hierarchy_refit", "field_resolve"},

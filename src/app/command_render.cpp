@@ -17,7 +17,8 @@ namespace {
 TraceChoice parseTrace(const std::string& flag, const std::string& text) {
   if (text == "auto") return TraceChoice::Auto;
   if (text == "boxes") return TraceChoice::Boxes;
-  throw BadInput(flag, fmt::format("\"{}\"", text), "is neither auto nor boxes");
+  if (text == "tiles") return TraceChoice::Tiles;
+  throw BadInput(flag, fmt::format("\"{}\"", text), "is not auto, boxes or tiles");
 }
 
 void checkView(const std::string& view) {
@@ -58,9 +59,12 @@ void addFrameOptions(CLI::App& command, RenderRequest& request) {
   addValue(command, "--frames", "Frames 1/60 s apart that end at --time; the picture is the last",
            [&](auto& flag, auto& text) { request.frames = static_cast<int>(parseWhole(flag, text, 1, 100000)); })
       ->type_name("N");
-  addValue(command, "--trace", "How SDF objects are found: auto or boxes", [&](auto& flag, auto& text) {
-    request.trace = parseTrace(flag, text);
-  })->type_name("PATH");
+  addValue(
+      command, "--trace",
+      "How SDF objects are found: boxes (fragments of their boxes, the default), tiles (of pixels, in compute), or "
+      "auto: whichever draws a small picture faster",
+      [&](auto& flag, auto& text) { request.trace = parseTrace(flag, text); })
+      ->type_name("PATH");
   addFieldOptions(command, request.field);
   addRenderShadows(command, request.shadows);
   addFieldShadowOptions(command, request.fieldShadows);

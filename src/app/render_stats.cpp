@@ -86,7 +86,7 @@ Json settingsJson(const RenderRun& run) {
   json["time"] = valueOr(request.scene.pose.seconds, "rest pose");
   json["animation"] = request.scene.pose.animation;
   json["frames"] = request.frames;
-  json["trace"] = "boxes"; // what auto chooses too
+  json["trace"] = request.trace == TraceChoice::Tiles ? "tiles" : "boxes"; // auto is settled
   json["sdf"] = sdf.patterns.empty() ? Json("extras") : Json(sdf.patterns);
   json["resolution"] = valueOr(sdf.resolution, "extras");
   json["triplanar"] = valueOr(sdf.triplanarMetres, "extras");

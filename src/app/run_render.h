@@ -19,7 +19,7 @@
 
 namespace brickfield {
 
-enum class TraceChoice { Auto, Boxes };
+enum class TraceChoice { Boxes, Tiles, Auto };
 
 struct RenderRequest {
   SceneRequest scene; ///< sdf nodes by sdfNodes()
@@ -29,7 +29,7 @@ struct RenderRequest {
   std::filesystem::path layers; ///< .exr, by writeLayers(); empty: not asked for
   std::filesystem::path stats;  ///< .json; empty: not asked for
   int frames = 1;               ///< 1/60 s apart, the last one at the scene's time; the image is the last
-  TraceChoice trace = TraceChoice::Auto;
+  TraceChoice trace = TraceChoice::Boxes;
   ShadowChoice shadows = ShadowChoice::None;
   FieldShadowChoice fieldShadows; ///< checked
   ShadowMapChoice shadowMaps;
@@ -65,11 +65,15 @@ RendererSettings rendererSettingsOf(const RenderRequest& request);
 /// Sets pose and light of one of the request's frames, 0 to frames - 1, and draws it.
 void drawFrame(const RenderRequest& request, const LoadedRender& loaded, int frame, Renderer& renderer);
 
+/// Makes of TraceChoice::Auto what draws the last frame's surfaces faster, in a small picture; leaves the renderer with
+/// other settings and pose.
+void settleTrace(RenderRequest& request, const LoadedRender& loaded, Renderer& renderer);
+
 /// Counts of a frame like the last one. Counting slows drawing down, so it is drawn once more for it.
 FrameStats countFrame(const RenderRequest& request, const View& view, Renderer& renderer);
 
 /// Renders and writes everything that is asked for, the picture last.
 /// error  BadInput, Failure, Cancelled; then nothing is half-written
-void runRender(const RenderRequest& request);
+void runRender(RenderRequest request);
 
 } // namespace brickfield

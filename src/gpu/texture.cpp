@@ -128,6 +128,20 @@ Texture Texture::makeCube(std::string label, GLenum format, int size, int levels
   return Texture(std::move(label), {GL_TEXTURE_CUBE_MAP, format, {size, size, 6}, levels});
 }
 
+Texture Texture::viewOf(std::string label, const Texture& texture, GLenum format) {
+  Texture view;
+  view.label_ = std::move(label);
+  view.shape_ = texture.shape_;
+  view.shape_.format = format;
+  const bool hasSlices = view.shape_.target == GL_TEXTURE_3D;
+  glGenTextures(1, &view.id_);
+  glTextureView(view.id_, view.shape_.target, texture.id_, format, 0, static_cast<GLuint>(view.shape_.levels), 0,
+                hasSlices ? 1u : static_cast<GLuint>(view.shape_.extent.z));
+  labelObject(GL_TEXTURE, view.id_, view.label_);
+  requireNoGlError(fmt::format("view \"{}\" of texture \"{}\"", view.label_, texture.label_));
+  return view;
+}
+
 Texture::~Texture() {
   if (id_) glDeleteTextures(1, &id_);
 }

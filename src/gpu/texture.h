@@ -45,6 +45,8 @@ public:
   static Texture make2DArray(std::string label, GLenum format, int width, int height, int layers, int levels = 1);
   static Texture make3D(std::string label, GLenum format, glm::ivec3 extent, int levels = 1);
   static Texture makeCube(std::string label, GLenum format, int size, int levels = 1);
+  /// The same texels in another format of the same size; the other texture must outlive what is drawn through it.
+  static Texture viewOf(std::string label, const Texture& texture, GLenum format);
   ~Texture();
   Texture(Texture&& other) noexcept;
   Texture& operator=(Texture&& other) noexcept;

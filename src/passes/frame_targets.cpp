@@ -40,6 +40,13 @@ FrameTargets::FrameTargets(glm::uvec2 sizePixels)
                           {GL_COLOR_ATTACHMENT3, &emission}}),
       overdraw("box_overdraw", {{GL_COLOR_ATTACHMENT0, &boxOverdraw}}) {}
 
+void FrameTargets::fitTiles(bool isMade) {
+  if (!isMade) depthTraced = {}, albedoEncoded = {};
+  if (!isMade || depthTraced) return;
+  depthTraced = layer("depth_traced", GL_R32F, size);
+  albedoEncoded = Texture::viewOf("albedo_encoded", albedo, GL_RGBA8);
+}
+
 void FrameTargets::fitOcclusion(int scale) {
   if (scale == 0) {
     occlusion = {}, occlusionTraced = {};
@@ -67,7 +74,7 @@ void FrameTargets::fitReflections(bool isMade) {
 }
 
 void FrameTargets::bindGBuffer() const {
-  depth.bind(shared::kDepthUnit);
+  visibleDepth().bind(shared::kDepthUnit);
   normalWorldOct.bind(shared::kNormalUnit);
   albedo.bind(shared::kAlbedoUnit);
   material.bind(shared::kMaterialUnit);
@@ -79,9 +86,9 @@ void FrameTargets::bindGBuffer() const {
 std::size_t FrameTargets::bytes() const {
   std::size_t sum = 0;
   for (const Texture* texture :
-       {&depth,     &depthMesh,     &normalWorldOct, &albedo,      &material,  &emission,        &id,
-        &trace,     &shadow,        &shadowHalf,     &shadowReads, &occlusion, &occlusionTraced, &translucent,
-        &thickness, &reflectionHit, &reflection,     &color,       &picture,   &boxOverdraw})
+       {&depth,       &depthMesh, &depthTraced,   &normalWorldOct, &albedo,      &material,  &emission,
+        &id,          &trace,     &shadow,        &shadowHalf,     &shadowReads, &occlusion, &occlusionTraced,
+        &translucent, &thickness, &reflectionHit, &reflection,     &color,       &picture,   &boxOverdraw})
     if (*texture) sum += texture->bytes();
   return sum;
 }

@@ -14,8 +14,10 @@ struct FrameTargets {
   glm::uvec2 size;
   Texture depth;           ///< D32F, reverse Z
   Texture depthMesh;       ///< D32F: the meshes' depth alone
+  Texture depthTraced;     ///< R32F: depth of all where SDF objects were traced in compute; none without fitTiles
   Texture normalWorldOct;  ///< RGBA16_SNORM: shading normal, surface normal
   Texture albedo;          ///< SRGB8_A8
+  Texture albedoEncoded;   ///< RGBA8: a view of it for image stores; as depthTraced
   Texture material;        ///< RGBA8: metallic, roughness, occlusion, unlit
   Texture emission;        ///< R11F_G11F_B10F
   Texture id;              ///< R32UI: node or SDF instance << 2 | kind, lib/packing.glsl
@@ -36,6 +38,10 @@ struct FrameTargets {
   Framebuffer surface;   ///< of it what textures decide: normal, albedo, material, emission
   Framebuffer overdraw;
 
+  /// Makes the textures that SDF objects are traced into in compute, or frees them.
+  void fitTiles(bool isMade);
+  /// Depths of all that is seen.
+  const Texture& visibleDepth() const { return depthTraced ? depthTraced : depth; }
   /// Makes the textures of occlusion that is traced at every scale-th pixel along both axes; 0: frees them.
   void fitOcclusion(int scale);
   /// Makes the textures of translucency, or frees them.

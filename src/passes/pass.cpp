@@ -15,6 +15,8 @@ const char* resourceName(Resource resource) {
     return "sdf_scene";
   case Resource::VisibleBoxes:
     return "visible_boxes";
+  case Resource::ScreenBoxes:
+    return "screen_boxes";
   case Resource::Environment:
     return "environment";
   case Resource::Depth:

@@ -15,6 +15,7 @@ enum class Resource : std::uint8_t {
   MeshDraws,
   SdfScene,     ///< instances, levels, indirection, atlas
   VisibleBoxes, ///< list and draw commands of the SDF objects
+  ScreenBoxes,  ///< where they lie on the picture
   Environment,
   Depth,
   DepthMesh, ///< depth of the meshes alone, which ends the rays of SDF objects
@@ -43,7 +44,7 @@ enum class Resource : std::uint8_t {
   WorldFieldCoarse,  ///< unsigned, less the thickness
   WorldField,        ///< the volume that other passes read, and what it keeps from frame to frame
 };
-inline constexpr int kResourceCount = 32;
+inline constexpr int kResourceCount = 33;
 const char* resourceName(Resource resource);
 
 /// How the GPU touches it: decides the barrier after incoherent writes.

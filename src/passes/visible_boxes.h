@@ -14,13 +14,14 @@ public:
   void fit(std::uint32_t instanceCount);
 
   const Buffer& list() const { return list_; } ///< VISIBLE_* words: facing objects, then those cut by the near plane
-  const Buffer& commands() const { return commands_; } ///< shared::BoxCommand, BOX_COMMANDS of them
+  const Buffer& screenBoxes() const { return screenBoxes_; } ///< a count in 16 bytes, then shared::ScreenBox
+  const Buffer& commands() const { return commands_; }       ///< shared::BoxCommand, BOX_COMMANDS of them
 
   /// One indirect draw for all boxes, with the program in use; shaders/passes/sdf_box.vert.glsl is its vertex shader.
   void draw() const;
 
 private:
-  Buffer list_, commands_;
+  Buffer list_, screenBoxes_, commands_;
   VertexArray vertexArray_;
 };
 

@@ -25,7 +25,7 @@ FrameLayers readFrameLayers(const FrameTargets& targets, const View& view, std::
                             const std::vector<std::int32_t>& nodeOfInstance) {
   const std::size_t width = targets.size.x, height = targets.size.y;
   const std::vector<float> color = targets.color.readFloats(), normals = targets.normalWorldOct.readFloats(),
-                           depth = targets.depth.readFloats();
+                           depth = targets.visibleDepth().readFloats();
   const std::vector<std::uint8_t> albedo = targets.albedo.read<std::uint8_t>();
   const std::vector<std::uint32_t> ids = targets.id.read<std::uint32_t>(), trace = targets.trace.read<std::uint32_t>();
 

@@ -16,6 +16,7 @@
 #include "passes/geometry/mesh_pass.h"
 #include "passes/geometry/sdf_box_pass.h"
 #include "passes/geometry/sdf_cull_pass.h"
+#include "passes/geometry/sdf_tile_pass.h"
 #include "passes/geometry/triplanar_pass.h"
 #include "passes/light/environment_pass.h"
 #include "passes/light/field_occlusion_pass.h"
@@ -48,7 +49,7 @@ namespace {
 
 /// What decides which passes a frame has.
 struct FrameShape {
-  bool boxesFirst = false, hasTriplanar = false;
+  bool hasClear = false, boxesFirst = false, hasBoxes = false, hasTiles = false, hasTriplanar = false;
   bool hasExactField = false, hasRtsdfField = false, hasFieldShadows = false, hasOcclusion = false;
   bool hasTranslucency = false, hasReflections = false, hasShadowMaps = false, hasShadowMoments = false,
        hasShadowRanges = false;
@@ -84,6 +85,8 @@ struct Renderer::Parts {
   LatePass<RtsdfVoxelizePass> rtsdfVoxelize;
   LatePass<RtsdfJumpFloodPass> rtsdfJumpFlood;
   LatePass<RtsdfRaysPass> rtsdfRays;
+  LatePass<ScreenBoxPass> screenBoxes;
+  LatePass<SdfTilePass> sdfTiles;
   LatePass<TriplanarPass> triplanar;
   LatePass<FieldShadowPass> fieldShadow;
   LatePass<FieldOcclusionPass> fieldOcclusion;
@@ -128,6 +131,7 @@ struct Renderer::Parts {
   std::vector<PlannedPass> plan(const FrameContext& context);
   shared::FrameParams fillParams() const;
   bool readsField() const;
+  bool tracesTiles() const;
   const FieldFrame& prepareField();
   void placeDraws();
   MeshDraws meshDraws() const { return {scene->batches(), drawBoxes, drawAnchorWorld}; }
@@ -173,6 +177,11 @@ bool Renderer::Parts::readsField() const {
   return settings.worldField.always || marchesField(settings.shadows.method) ||
          settings.occlusion.form != OcclusionForm::Off || settings.reflections.method != ReflectionMethod::Off ||
          (shown && shown->readsField);
+}
+
+bool Renderer::Parts::tracesTiles() const {
+  const bool boxesFirst = settings.drawOrder == DrawOrder::BoxesFirstAllReversed;
+  return settings.sdfTracing == SdfTracing::Tiles && !boxesFirst && scene->sdfInstanceCount() > 0;
 }
 
 const FieldFrame& Renderer::Parts::prepareField() {
@@ -232,13 +241,17 @@ void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
     take(&Parts::rtsdfJumpFlood);
     take(&Parts::rtsdfRays);
   }
-  take(&Parts::clear);
+  if (shape.hasClear) take(&Parts::clear);
   take(&Parts::sdfCull); // which boxes, and how
   if (shape.boxesFirst) take(&Parts::sdfBox);
   take(&Parts::mesh);
-  if (!shape.boxesFirst) {
+  if (shape.hasBoxes) {
     take(&Parts::depthCopy); // ends the rays of SDF objects behind meshes
     take(&Parts::sdfBox);
+  }
+  if (shape.hasTiles) { // in their place
+    take(&Parts::screenBoxes);
+    take(&Parts::sdfTiles);
   }
   if (shape.hasTriplanar) take(&Parts::triplanar); // the last word about surfaces
   if (shape.hasShadowMaps) take(&Parts::shadowMap);
@@ -276,7 +289,11 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
   const bool readsField = shown && shown->readsField, readsMaps = shown && shown->readsShadowMaps;
   const bool readsTemporal = shown && shown->readsTemporal;
   const bool hasMaps = context.shadowMaps != nullptr, hasRanges = hasMaps && context.shadowMaps->hasRanges();
-  const FrameShape shape{.boxesFirst = settings.drawOrder == DrawOrder::BoxesFirstAllReversed,
+  const bool boxesFirst = settings.drawOrder == DrawOrder::BoxesFirstAllReversed, hasTiles = tracesTiles();
+  const FrameShape shape{.hasClear = !hasTiles || !meshRuns.empty(), // else tiles write every pixel
+                         .boxesFirst = boxesFirst,
+                         .hasBoxes = !boxesFirst && !hasTiles,
+                         .hasTiles = hasTiles,
                          .hasTriplanar = !scene->triplanarMaterials().empty(),
                          .hasExactField = context.field && context.field->exact,
                          .hasRtsdfField = context.field && context.field->rtsdf,
@@ -387,6 +404,7 @@ void Renderer::render(const View& view) {
   }
   const OcclusionSettings& occlusion = parts.settings.occlusion;
   parts.targets->fitOcclusion(occlusion.form == OcclusionForm::Off ? 0 : occlusion.scale);
+  parts.targets->fitTiles(parts.tracesTiles());
   parts.targets->fitTranslucency(parts.settings.translucency.source != TranslucencySource::Off);
   parts.targets->fitReflections(parts.settings.reflections.method != ReflectionMethod::Off);
   parts.view = view;
@@ -492,7 +510,10 @@ FieldPicture Renderer::fieldPicture() const {
 
 std::vector<std::string> framePassNames() {
   std::vector<std::string> names;
-  Renderer::Parts::listPasses({.boxesFirst = false,
+  Renderer::Parts::listPasses({.hasClear = true,
+                               .boxesFirst = false,
+                               .hasBoxes = true,
+                               .hasTiles = true,
                                .hasTriplanar = true,
                                .hasExactField = true,
                                .hasRtsdfField = true,

@@ -10,6 +10,8 @@
 
 namespace brickfield {
 
+const char* sdfTracingName(SdfTracing tracing) { return tracing == SdfTracing::Boxes ? "boxes" : "tiles"; }
+
 namespace {
 
 constexpr int kLeastFieldTexels = 16, kMostFieldTexels = 512;

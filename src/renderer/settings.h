@@ -38,15 +38,21 @@ struct FieldSlice {
   int cascade = -1;                    ///< its whole window; -1: the finest at each point, the scene's bounds
 };
 
+/// How SDF objects are found: by fragments of their boxes, or by tiles of pixels in compute. Both draw the same
+/// surfaces; which is faster is the GPU's to say.
+enum class SdfTracing : std::uint8_t { Boxes, Tiles };
+const char* sdfTracingName(SdfTracing tracing);
+
 struct RendererSettings {
   float exposureEv = 0;               ///< stops; at 0 a white diffuse surface under π lux has radiance 1
   std::uint32_t maxTraceSteps = 2048; ///< of a ray in one object; running out is a miss and is counted
   int forcedLevel = -1;               ///< level that all SDF objects show; -1: by the size of a voxel on screen
   DrawOrder drawOrder = DrawOrder::MeshesFirst;
-  bool countersOn = false;      ///< counts fragments, steps and brick reads; slower
-  std::string view;             ///< one of debugViews(); empty: the lit picture
-  ShadowSettings shadows;       ///< those that march make a world field in each frame
-  ShadowMapSettings shadowMaps; ///< where the method draws maps
+  SdfTracing sdfTracing = SdfTracing::Boxes; ///< boxes where they are drawn first
+  bool countersOn = false;                   ///< counts fragments, steps and brick reads; slower
+  std::string view;                          ///< one of debugViews(); empty: the lit picture
+  ShadowSettings shadows;                    ///< those that march make a world field in each frame
+  ShadowMapSettings shadowMaps;              ///< where the method draws maps
   TaaSettings taa;
   OcclusionSettings occlusion; ///< as the shadows: any form makes a world field in each frame
   TranslucencySettings translucency;

@@ -40,6 +40,7 @@ TEST_F(FramePasses, AreListedInTheirOrderAndNoOthers) {
     if (settings.view == "shadow-map") settings.shadows.method = ShadowMethod::Maps;
     if (settings.view == "albedo") settings.shadows.method = ShadowMethod::MapsAndField;
     settings.taa.on = settings.view == "motion";
+    settings.sdfTracing = settings.view == "steps" ? SdfTracing::Tiles : SdfTracing::Boxes;
     settings.taa.shutter = 0.5f;
     settings.occlusion.form = settings.view == "steps" ? OcclusionForm::Cones : OcclusionForm::Off;
     settings.translucency.source = settings.view == "steps" ? TranslucencySource::Materials : TranslucencySource::Off;
@@ -150,10 +151,14 @@ TEST_F(FramePasses, BackgroundsForgetTheFrameBefore) {
   std::vector<std::string> shown{""};
   for (const DebugView& view : debugViews())
     if (!view.readsField && !view.readsShadowMaps && !view.readsTemporal) shown.push_back(view.name);
-  for (const DrawOrder order : {DrawOrder::MeshesFirst, DrawOrder::BoxesFirstAllReversed})
+  using Way = std::pair<DrawOrder, SdfTracing>;
+  for (const auto& [order, tracing] :
+       {Way(DrawOrder::MeshesFirst, SdfTracing::Boxes), Way(DrawOrder::BoxesFirstAllReversed, SdfTracing::Boxes),
+        Way(DrawOrder::MeshesFirst, SdfTracing::Tiles)})
     for (const std::string& name : shown) {
       settings.view = name;
       settings.drawOrder = order;
+      settings.sdfTracing = tracing;
       const auto fresh = scene.makeRenderer(context().info(), settings);
       renderer->setSettings(settings);
       renderer->render(near);

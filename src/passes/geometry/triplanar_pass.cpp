@@ -28,7 +28,7 @@ void TriplanarPass::record(const FrameContext& context) {
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glColorMaski(0, GL_TRUE, GL_TRUE, GL_FALSE, GL_FALSE);
-  targets.depth.bind(shared::kDepthUnit);
+  targets.visibleDepth().bind(shared::kDepthUnit);
   targets.normalWorldOct.bind(shared::kNormalUnit);
   targets.id.bind(shared::kIdUnit);
   context.scene.bindSdfInstances();

@@ -31,8 +31,9 @@ std::vector<ProgramSource> marchedShadows() {
 }
 
 std::vector<ProgramSource> tableOfPrograms() {
-  const auto compute = [](const std::string& label, const std::string& path) {
-    return ProgramSource{label, {{GL_COMPUTE_SHADER, path}}, {}, {}};
+  const auto compute = [](const std::string& label, const std::string& path,
+                          std::map<std::string, std::string> defines = {}) {
+    return ProgramSource{label, {{GL_COMPUTE_SHADER, path}}, std::move(defines), {}};
   };
   const auto draw = [](const std::string& label, const std::string& vertex, const std::string& fragment,
                        std::map<std::string, std::string> defines) {
@@ -41,6 +42,11 @@ std::vector<ProgramSource> tableOfPrograms() {
   std::vector<ProgramSource> table{
       compute("deform", "passes/deform.comp.glsl"),
       compute("sdf_cull", "passes/sdf_cull.comp.glsl"),
+      compute("sdf_screen_boxes", "passes/sdf_screen_boxes.comp.glsl"),
+      compute("sdf_tiles", "passes/sdf_tiles.comp.glsl"),
+      compute("sdf_tiles_counting", "passes/sdf_tiles.comp.glsl", {{"COUNTERS_ON", "1"}}),
+      compute("sdf_tiles_motion", "passes/sdf_tiles.comp.glsl", {{"MOTION_ON", "1"}}),
+      compute("sdf_tiles_motion_counting", "passes/sdf_tiles.comp.glsl", {{"COUNTERS_ON", "1"}, {"MOTION_ON", "1"}}),
       draw("mesh", "passes/mesh.vert.glsl", "passes/mesh.frag.glsl", {}),
       draw("mesh_masked", "passes/mesh.vert.glsl", "passes/mesh.frag.glsl", {{"ALPHA_MASK", "1"}}),
       draw("mesh_motion", "passes/mesh.vert.glsl", "passes/mesh.frag.glsl", {{"MOTION_ON", "1"}}),
