@@ -127,9 +127,12 @@ TEST_F(SdfTiles, CountWhatTheyTrace) {
 
 // Without meshes nothing is cleared: tiles write all pixels.
 TEST_F(SdfTiles, LeaveNothingOfTheFrameBefore) {
-  const TestScene scene(makeTorusAlone(), "Torus", 48);
-  const View near = scene.view({0, 1.2f, 1.6f}, {0, 0, 0}, {160, 90}),
-             far = scene.view({0, 6, 9}, {0, 0, 0}, {160, 90});
+  Scene built = makeInterpenetration();
+  built.nodes.at(1).matrix.reset(); // the sphere, which the first view alone shows
+  built.nodes.at(1).translation = glm::vec3(20, 0, 0);
+  const TestScene scene(std::move(built), "Torus", 48);
+  const View near = scene.view({20, 0, 1}, {20, 0, 0}, {160, 90}),
+             far = scene.view({0, 6, 9}, {0, 0, 0}, {160, 90}, 30);
   std::vector<FrameLayers> frames;
   for (const SdfTracing tracing : {SdfTracing::Boxes, SdfTracing::Tiles}) {
     const auto renderer = scene.makeRenderer(context().info(), tracedBy(tracing));
