@@ -46,7 +46,7 @@ bool isCutOff(vec3 pointAnchored, float metres) {
 ReflectionMet traceReflection(ReflectionRay ray) {
   ReflectionMet met = ReflectionMet(1.0, 0.0, ray.origin, 0.0, ray.grain);
   float spread = min(ray.spread, REFLECTION_CLEAR * max(dot(ray.normal, ray.direction), 0.0));
-  float t = 0.0, end = leavesField(ray.origin, ray.direction);
+  float t = 0.0, end = leavesField(ray.origin, ray.direction, 0.0);
   for (int i = 0; i < MOST_REFLECTION_READS && t < end; ++i) {
     float lift = REFLECTION_LIFT_GRAINS * ray.grain * max(1.0 - t / (REFLECTION_FADE_GRAINS * ray.grain), 0.0);
     vec3 at = ray.origin + lift * ray.normal + t * ray.direction;
@@ -87,7 +87,7 @@ uint nearestNode(vec3 pointAnchored) {
 float seesLight(vec3 pointAnchored, vec3 normal, vec3 toLight, float end) {
   if (dot(normal, toLight) <= 0.0) return 0.0;
   float grain = texelOf(readWorldField(pointAnchored)), t = 0.0;
-  end = min(end, leavesField(pointAnchored, toLight));
+  end = min(end, leavesField(pointAnchored, toLight, 0.0));
   for (int i = 0; i < MOST_LIGHT_READS && t < end; ++i) {
     float lift = 1.5 * grain * max(1.0 - t / (8.0 * grain), 0.0);
     FieldReading reading = readWorldField(pointAnchored + lift * normal + t * toLight);

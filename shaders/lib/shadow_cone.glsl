@@ -53,11 +53,12 @@ vec2 partOfLight(ShadowCone cone, int i, int count) {
   return radius * vec2(cos(angle), sin(angle));
 }
 
-// Beyond the field nothing blocks: where the way leaves the box of the coarsest window.
-float leavesField(vec3 origin, vec3 direction) {
+// Beyond the field nothing blocks: where all of a cone has left the box of the coarsest window, whatever leaves later than
+// its axis too.
+float leavesField(vec3 origin, vec3 axis, float spread) {
   FieldCascade coarsest = field.cascades[int(field.counts.x) - 1];
   vec3 low = vec3(coarsest.window.xyz) * coarsest.texel.x, high = low + float(coarsest.window.w) * coarsest.texel.x;
-  vec3 ends = mix(low, high, greaterThan(direction, vec3(0.0))) - origin;
-  vec3 far = mix(ends / direction, vec3(3.4e38), lessThan(abs(direction), vec3(1e-7)));
+  vec3 ends = (mix(low, high, greaterThan(axis, vec3(0.0))) - origin) * sign(axis), pace = abs(axis) - spread;
+  vec3 far = mix(ends / pace, vec3(3.4e38), lessThan(pace, vec3(1e-7)));
   return max(min(far.x, min(far.y, far.z)), 0.0);
 }

@@ -89,7 +89,7 @@ ShadowCone coneTo(LightRow light, ShadowedPixel pixel) {
 float marchLight(int number, ShadowCone cone, ivec2 pixel, int cell, float grain) {
   cone.grain = coarsenedGrain(cone.origin, cone.axis, grain);
   float before = cone.isRectangle ? grain : lights[number].intensity.w; // the light begins
-  cone.end = min(max(cone.lightAt - before, 0.0), leavesField(cone.origin, cone.axis));
+  cone.end = min(max(cone.lightAt - before, 0.0), leavesField(cone.origin, cone.axis, cone.spread));
   return visibleShare(cone, number, pixel, cell);
 }
 

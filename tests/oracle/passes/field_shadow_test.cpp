@@ -140,6 +140,24 @@ TEST_F(FieldShadow, PlatesLowerThanWhereRaysBeginHideTheSun) {
   }
 }
 
+// A sun as low as 20 degrees behind a wall on the border of the field: the axis leaves the field just behind the wall,
+// before the slower rays of the disk have come to it.
+TEST_F(FieldShadow, WallsOnTheBorderHideAllOfAWideSun) {
+  Scene built = slabOverFloor();
+  built.nodes[1].matrix = glm::translate(glm::mat4(1), {-1.19f, 0.6f, 0});
+  built.meshes[1] = makeBoxMesh({0.01f, 0.6f, 1.2f});
+  const TestScene scene(std::move(built), "none");
+  const auto renderer = scene.makeRenderer(context().info(), marching(128));
+  renderer->setLighting(makeLighting(scene.pose(), {"sun:0.94,-0.342,0:16:3"}, {{1, 1}, {glm::vec3(0)}}));
+  const View view = viewOfEdge(scene, kSize);
+  renderer->render(view);
+  std::size_t covered = 0, leaking = 0;
+  for (const FloorSample& sample : floorSamples(view, renderer->readLayers()))
+    if (std::abs(sample.x) < 0.8 && std::abs(sample.z) < 0.6) ++covered, leaking += sample.visible > 0.02;
+  ASSERT_GT(covered, 3000u);
+  EXPECT_EQ(leaking, 0u) << "of " << covered;
+}
+
 TEST_F(FieldShadow, TwoRunsAreTheSameBytes) {
   std::vector<std::vector<float>> shadows;
   for (int run = 0; run < 2; ++run) {
