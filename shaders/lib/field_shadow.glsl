@@ -2,7 +2,7 @@
 // goes first: most points see all of the light or none of it, a read a step. Where something first reaches into the
 // cone, narrow rays go on from there to parts of the light, a share of it each.
 //
-//        light            p: point, lifted off its surface by a grain, which fades out over eight
+//        light            p: point, lifted off its surface by a grain, which fades out as the light climbs
 //      \  ---  /          t: first touched; from there on the rays
 //       \ | | /
 //        \|||/ ___ caster
@@ -11,18 +11,23 @@
 // A grain is what nothing in a reading is finer than: a texel of the field, a voxel of bricks.
 #include "lib/shadow_cone.glsl"
 
-const int MOST_CONE_READS = 96, MOST_BACK_READS = 32, MOST_RAY_READS = 64;
-const float LIFT_GRAINS = 1.0, LIFT_FADE_GRAINS = 8.0, LEAST_STEP_GRAINS = 0.5;
-// Nothing in the field is sharper than this.
-const float LEAST_WIDTH_GRAINS = 0.2;
+const int MOST_CONE_READS = 96, MOST_RAY_READS = 64;
+// Steps of 0.6 pass through some of the slabs that bricks hold for sheets.
+const float LIFT_GRAINS = 1.0, LEAST_STEP_GRAINS = 0.5;
+// The lift fades by this part of what the light climbs over the surface, so that the way never sinks back into it, but
+// ends after so many grains.
+const float LIFT_FADE = 0.67, MOST_LIFT_FADE_GRAINS = 16.0;
+// What hard edges fade over.
+const float LEAST_WIDTH_GRAINS = 0.1;
 // A sheet midway between texels is interpolated to nothing deeper than 0: what is as near as this is in the way.
-const float BLOCKED_GRAINS = 0.05;
+const float BLOCKED_GRAINS = 0.01;
 // Of what a ball permits.
 const float RELAXED = 1.6;
 // Of a penumbra's radius for each ray: where steps are narrower than this none are seen, and sharing would only blur.
 const float SHARED_PIXELS = 1.0;
 const int LEAST_SURE_RAYS = 3;
-const float FADE = 0.7; // of the distance between rays, about
+const float FADE = 0.5; // of the distance between rays, about
+const float LEAD = 8.0; // see traceRay
 const float LIT = -1.0, DARK = -2.0;
 
 uint shadowReads = 0u; // of this thread
@@ -41,7 +46,8 @@ float distanceToRead(vec3 pointAnchored, float most);
 
 // Where the middle of the cone is after t metres.
 vec3 onAxis(ShadowCone cone, float t) {
-  float lift = LIFT_GRAINS * cone.grain * max(1.0 - t / (LIFT_FADE_GRAINS * cone.grain), 0.0);
+  float fade = max(LIFT_FADE * dot(cone.normal, cone.axis), LIFT_GRAINS / MOST_LIFT_FADE_GRAINS);
+  float lift = max(LIFT_GRAINS * cone.grain - fade * t, 0.0);
   return cone.origin + lift * cone.normal + t * cone.axis;
 }
 
@@ -66,6 +72,22 @@ bool isLiftedThrough(ShadowCone cone, ShadowReading first) {
   return false;
 }
 
+// A point at a wall's foot lies within the half texel that the field adds to sheets. The light comes from the free side
+// where the way leads out of it from the first small step on: from the far side it would cross the sheet first.
+//
+// returns metres along the axis, out of it; DARK
+float leaveNeighbour(ShadowCone cone, float ball) {
+  const float STEP_GRAINS = 0.2, LEAST_RISE_GRAINS = 0.02;
+  for (int i = 1; i <= 8; ++i) {
+    float t = float(i) * STEP_GRAINS * cone.grain;
+    ShadowReading reading = readForShadow(onAxis(cone, t), 0.0);
+    if (reading.distanceWorld < ball + LEAST_RISE_GRAINS * cone.grain) return DARK;
+    ball = reading.distanceWorld;
+    if (ball > LEAST_WIDTH_GRAINS * reading.grain) return t;
+  }
+  return DARK;
+}
+
 // Steps go farther than a ball (Keinert and others 2014): where the next ball does not reach back to it, they go back.
 //
 // returns metres along the axis where the cone is first touched; LIT, DARK: it is free, or all of it is blocked
@@ -77,6 +99,11 @@ float traceCone(ShadowCone cone) {
     ShadowReading reading = readForShadow(onAxis(cone, t), radius);
     float ball = reading.distanceWorld, touch = max(radius, LEAST_WIDTH_GRAINS * reading.grain);
     if (i == 0 && reading.grain < cone.grain && isLiftedThrough(cone, reading)) return DARK;
+    if (i == 0 && ball < touch) {
+      sure = t = leaveNeighbour(cone, ball);
+      if (t < 0.0) return DARK;
+      continue;
+    }
     vec2 way = wayInBall(ball, radius, cone.spread);
     if (t > sure && (ball < touch || t - way.y > sure)) {
       t = sure;
@@ -94,24 +121,15 @@ float traceCone(ShadowCone cone) {
   return sure;
 }
 
-// From the light backwards: metres along the axis, beyond which the cone is free.
-float lastTouched(ShadowCone cone, float start) {
-  float t = cone.end;
-  for (int i = 0; i < MOST_BACK_READS && t > start; ++i) {
-    float radius = cone.spread * t;
-    ShadowReading reading = readForShadow(onAxis(cone, t), radius);
-    if (reading.distanceWorld < max(radius, LEAST_WIDTH_GRAINS * reading.grain)) return t;
-    t -= max(wayInBall(reading.distanceWorld, radius, cone.spread).y, LEAST_STEP_GRAINS * reading.grain);
-  }
-  return max(t, start);
-}
-
-// How free a ray is, where it is touched most, fading over `share` of the cone's radius so that few rays show no steps.
-// The fade would go on as far inside, but sheets reach no depth: let half of it begin at the surface, and thin closed things
-// leak (a saucer). Before the light itself the fade narrows, lest what holds a panel dims it.
+// How free a ray is, where it is touched most. It is blocked at the surface; just outside it is free to LEAD / (1 + LEAD),
+// for were it darker, all edges would move outwards and gaps narrower than the fade go dark; few rays then show steps,
+// which the sharing of pixels hides where penumbrae are wide, and a small fade where they are narrow. The fade would go on
+// inside, but sheets reach no depth: let it begin there, and thin closed things leak (a saucer). Before the light itself it
+// narrows, lest what holds a panel dims it.
 // across      to which part of the light, metres a metre along the axis
-// start, end  metres along the axis, beyond which nothing is in the way
-float traceRay(ShadowCone cone, vec3 across, float share, float start, float end) {
+// share       of the cone's radius to fade over
+// start       metres along the axis, nothing is in the way before
+float traceRay(ShadowCone cone, vec3 across, float share, float start) {
   float pace = inversesqrt(dot(cone.axis + across, cone.axis + across)), horizon = dot(cone.normal, cone.axis + across) * pace;
   float t = start, free = clamp(0.5 + horizon / max(share * cone.spread, 1e-4), 0.0, 1.0);
   if (free <= 0.0) return 0.0;
@@ -121,9 +139,9 @@ float traceRay(ShadowCone cone, vec3 across, float share, float start, float end
     float ball = reading.distanceWorld;
     float past = ball - BLOCKED_GRAINS * reading.grain;
     if (past <= 0.0) return 0.0;
-    free = min(free, past / max(width, LEAST_WIDTH_GRAINS * reading.grain));
+    free = min(free, (past + LEAD * width) / (max(width, LEAST_WIDTH_GRAINS * reading.grain) + LEAD * width));
     t += pace * max(ball, LEAST_STEP_GRAINS * reading.grain);
-    if (t >= end) return free;
+    if (t >= cone.end) return free;
   }
   return 0.0; // what creeps along a surface for so long
 }
@@ -145,14 +163,11 @@ float shadowOf(ShadowCone cone, int rays, float softness, int cell) {
   // Of a rectangle, of the disk of its area: 4 a b / pi.
   if (cone.isRectangle) share *= sqrt(1.2732395 * length(cone.right) * length(cone.up)) / cone.spread;
   int first = (rays + 1) / 2;
-  float end = cone.end;
   for (int i = 0; i < rays; ++i) {
     if (i == first && first >= LEAST_SURE_RAYS && sum == float(first)) return sum / float(first);
     int ray = i < first ? 2 * i : 2 * (i - first) + 1;
     vec2 part = isMeanOfCell ? partOfLight(cone, ray, rays, cell) : partOfLight(cone, ray, rays);
-    float free = traceRay(cone, part.x * cone.right + part.y * cone.up, share, start, end);
-    if (free > 0.0 && sum == 0.0 && i < rays - 1) end = lastTouched(cone, start); // others may end there
-    sum += free;
+    sum += traceRay(cone, part.x * cone.right + part.y * cone.up, share, start);
   }
   return sum / float(rays);
 }
