@@ -44,11 +44,22 @@ ShadowReading readForShadow(vec3 pointAnchored, float fineMetres);
 // Metres to the objects with bricks that the last reading was of, near it; much where it was of the field alone.
 float distanceToRead(vec3 pointAnchored, float most);
 
-// Where the middle of the cone is after t metres.
-vec3 onAxis(ShadowCone cone, float t) {
-  float fade = max(LIFT_FADE * dot(cone.normal, cone.axis), LIFT_GRAINS / MOST_LIFT_FADE_GRAINS);
-  float lift = max(LIFT_GRAINS * cone.grain - fade * t, 0.0);
-  return cone.origin + lift * cone.normal + t * cone.axis;
+// On the way to a part of the light, after t metres along the axis. Where bricks end, or a cascade, the field begins to
+// make the surface thicker than the lift: what lies in the way there is asked once more, a coarser grain higher.
+//
+// across      metres a metre along the axis
+// fineMetres  what is told apart, and what touches the reader
+ShadowReading readOnWay(ShadowCone cone, vec3 across, float t, float fineMetres) {
+  float climbed = t * max(LIFT_FADE * dot(cone.normal, cone.axis), LIFT_GRAINS / MOST_LIFT_FADE_GRAINS), grain = cone.grain;
+  ShadowReading reading;
+  for (int i = 0; i < 2; ++i) {
+    vec3 lift = max(LIFT_GRAINS * grain - climbed, 0.0) * cone.normal;
+    reading = readForShadow(cone.origin + lift + t * (cone.axis + across), fineMetres);
+    bool isTouched = reading.distanceWorld < max(fineMetres, LEAST_WIDTH_GRAINS * reading.grain);
+    if (!isTouched || reading.grain <= grain || LIFT_GRAINS * reading.grain <= climbed) break;
+    grain = reading.grain;
+  }
+  return reading;
 }
 
 // How far the cone goes on, and back (y), inside a ball around its axis that nothing reaches into.
@@ -80,7 +91,7 @@ float leaveNeighbour(ShadowCone cone, float ball) {
   const float STEP_GRAINS = 0.2, LEAST_RISE_GRAINS = 0.02;
   for (int i = 1; i <= 8; ++i) {
     float t = float(i) * STEP_GRAINS * cone.grain;
-    ShadowReading reading = readForShadow(onAxis(cone, t), 0.0);
+    ShadowReading reading = readOnWay(cone, vec3(0.0), t, 0.0);
     if (reading.distanceWorld < ball + LEAST_RISE_GRAINS * cone.grain) return DARK;
     ball = reading.distanceWorld;
     if (ball > LEAST_WIDTH_GRAINS * reading.grain) return t;
@@ -96,7 +107,7 @@ float traceCone(ShadowCone cone) {
   float relaxed = RELAXED;
   for (int i = 0; i < MOST_CONE_READS; ++i) {
     float radius = cone.spread * t;
-    ShadowReading reading = readForShadow(onAxis(cone, t), radius);
+    ShadowReading reading = readOnWay(cone, vec3(0.0), t, radius);
     float ball = reading.distanceWorld, touch = max(radius, LEAST_WIDTH_GRAINS * reading.grain);
     if (i == 0 && reading.grain < cone.grain && isLiftedThrough(cone, reading)) return DARK;
     if (i == 0 && ball < touch) {
@@ -135,7 +146,7 @@ float traceRay(ShadowCone cone, vec3 across, float share, float start) {
   if (free <= 0.0) return 0.0;
   for (int i = 0; i < MOST_RAY_READS; ++i) {
     float width = min(share * cone.spread * t, 0.5 * (cone.lightAt - t));
-    ShadowReading reading = readForShadow(onAxis(cone, t) + t * across, width);
+    ShadowReading reading = readOnWay(cone, across, t, width);
     float ball = reading.distanceWorld;
     float past = ball - BLOCKED_GRAINS * reading.grain;
     if (past <= 0.0) return 0.0;

@@ -32,8 +32,6 @@ bool isOfCell();
 uint readsOfThread();
 // Metres: what a reading there is not finer than.
 float grainAt(vec3 pointAnchored);
-// The larger of a grain and of that near a surface there.
-float coarsestGrain(vec3 pointAnchored, float grain);
 
 struct ShadowedPixel {
   vec3 pointEye;
@@ -48,15 +46,6 @@ ShadowedPixel shadowedPixel(ivec2 pixel) {
   float t = rayParameterOfDepth(originEye, directionWorld, texelFetch(depth, pixel, 0).r);
   vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).zw);
   return ShadowedPixel(originEye + t * directionWorld, normal, t, kindOfId(texelFetch(id, pixel, 0).r) != KIND_NONE);
-}
-
-// Beyond a cascade's border thin things are as thick as the next one's texels, and where bricks end as the field's: from
-// near there a lift must be as high.
-float coarsenedGrain(vec3 origin, vec3 axis, float grain) {
-  float texel = texelOf(readWorldField(origin)), ahead = texelOf(readWorldField(origin + 8.0 * texel * axis));
-  if (ahead > texel) return max(grain, ahead);
-  for (int i = 1; i <= 4 && grain < texel; ++i) grain = coarsestGrain(origin + 0.5 * float(i) * texel * axis, grain);
-  return grain;
 }
 
 // Without a grain and an end.
@@ -87,7 +76,7 @@ ShadowCone coneTo(LightRow light, ShadowedPixel pixel) {
 }
 
 float marchLight(int number, ShadowCone cone, ivec2 pixel, int cell, float grain) {
-  cone.grain = coarsenedGrain(cone.origin, cone.axis, grain);
+  cone.grain = grain;
   float before = cone.isRectangle ? grain : lights[number].intensity.w; // the light begins
   cone.end = min(max(cone.lightAt - before, 0.0), leavesField(cone.origin, cone.axis, cone.spread));
   return visibleShare(cone, number, pixel, cell);

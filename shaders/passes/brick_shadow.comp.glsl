@@ -27,11 +27,5 @@ float grainAt(vec3 pointAnchored) {
   FieldReading reading = readWorldField(pointAnchored);
   return refineByBricks(pointAnchored, reading, texelOf(reading), 0.0).grain;
 }
-float coarsestGrain(vec3 pointAnchored, float grain) {
-  FieldReading reading = readWorldField(pointAnchored);
-  float texel = texelOf(reading);
-  bool isNear = abs(reading.distanceWorld) < BRICKS_END_TEXELS * texel;
-  return isNear ? max(grain, refineByBricks(pointAnchored, reading, texel, 0.0).grain) : grain;
-}
 float visibleShare(ShadowCone cone, int light, ivec2 pixel, int cell) { return shadowOf(cone, raysOfPenumbra, softness, cell); }
 bool isOfCell() { return isMeanOfCell; }

@@ -17,6 +17,5 @@ float distanceToRead(vec3 pointAnchored, float most) { return 3.4e38; }
 
 uint readsOfThread() { return shadowReads; }
 float grainAt(vec3 pointAnchored) { return texelOf(readWorldField(pointAnchored)); }
-float coarsestGrain(vec3 pointAnchored, float grain) { return grain; }
 float visibleShare(ShadowCone cone, int light, ivec2 pixel, int cell) { return shadowOf(cone, raysOfPenumbra, softness, cell); }
 bool isOfCell() { return isMeanOfCell; }

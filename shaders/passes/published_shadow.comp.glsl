@@ -11,7 +11,6 @@ uniform uint seed;
 
 uint readsOfThread() { return shadowReads; }
 float grainAt(vec3 pointAnchored) { return texelOf(readWorldField(pointAnchored)); }
-float coarsestGrain(vec3 pointAnchored, float grain) { return grain; }
 bool isOfCell() { return false; }
 float visibleShare(ShadowCone cone, int light, ivec2 pixel, int cell) {
   FieldCascade coarsest = field.cascades[int(field.counts.x) - 1];

@@ -218,6 +218,35 @@ TEST_F(FieldShadow, GapsNarrowerThanPenumbraeLetTheirShareThrough) {
   EXPECT_NEAR(sum / static_cast<double>(count), 0.5 - 0.5 * slant, 0.03);
 }
 
+// Light that grazes an object's plate begins at its voxels. Behind the plate's upper half stands a block without
+// bricks: there the field alone answers, in which the plate is thicker than the way is high.
+TEST_F(FieldShadow, GrazingLightPassesWhereBricksEnd) {
+  Scene built = slabOverFloor();
+  built.nodes[1].name = "Plate";
+  built.nodes[1].matrix = glm::translate(glm::mat4(1), {0, 0.5f, 0});
+  built.meshes[1] = makeBoxMesh({0.4f, 0.4f, 0.005f});
+  built.nodes.push_back({});
+  built.nodes[2].mesh = 2;
+  built.nodes[2].matrix = glm::translate(glm::mat4(1), {0, 0.65f, -0.06f});
+  built.meshes.push_back(makeBoxMesh({0.4f, 0.15f, 0.05f}));
+  built.scenes[0].nodes.push_back(2);
+  const TestScene scene(std::move(built), "Plate", 256);
+  const auto renderer = scene.makeRenderer(context().info(), marching(64));
+  const View view = scene.view({0, 0.5f, 1.2f}, {0, 0.5f, 0}, kSize, 40);
+  for (const char* sun : {"sun:0,-1,-0.13:0.5:3", "sun:0,-1,-0.2:0.5:3", "sun:0.3,-1,-0.13:2:3"}) {
+    renderer->setLighting(makeLighting(scene.pose(), {sun}, {{1, 1}, {glm::vec3(0)}}));
+    renderer->render(view);
+    const FrameLayers frame = renderer->readLayers();
+    std::size_t lit = 0, dark = 0;
+    for (std::size_t i = 0; i < frame.id.size(); ++i)
+      if (frame.kind[i] == SurfaceKind::Sdf && frame.normalSurface[i].z > 0.99f)
+        ++lit, dark += frame.shadow.front()[i] < 0.98f;
+    ASSERT_GT(lit, 3000u);
+    std::printf("%s: %zu of %zu dark\n", sun, dark, lit);
+    EXPECT_EQ(dark, 0u) << sun;
+  }
+}
+
 TEST_F(FieldShadow, TwoRunsAreTheSameBytes) {
   std::vector<std::vector<float>> shadows;
   for (int run = 0; run < 2; ++run) {
