@@ -11,7 +11,7 @@
 // A grain is what nothing in a reading is finer than: a texel of the field, a voxel of bricks.
 #include "lib/shadow_cone.glsl"
 
-const int MOST_CONE_READS = 96, MOST_RAY_READS = 64;
+const uint MOST_CONE_READS = 96u, MOST_RAY_READS = 64u;
 // Steps of 0.6 pass through some of the slabs that bricks hold for sheets.
 const float LIFT_GRAINS = 1.0, LEAST_STEP_GRAINS = 0.5;
 // The lift fades by this part of what the light climbs over the surface, so that the way never sinks back into it, but
@@ -27,40 +27,63 @@ const float RELAXED = 1.6;
 const float SHARED_PIXELS = 1.0;
 const int LEAST_SURE_RAYS = 3;
 const float FADE = 0.5; // of the distance between rays, about
-const float LEAD = 8.0; // see traceRay
-const float LIT = -1.0, DARK = -2.0;
+const float LEAD = 8.0; // see stepRay
+// Down from where the cone begins, in parts of the lift; and what is no more than this over the surface is the surface.
+const float LEAST_DOWN = 0.1, OWN_SURFACE_GRAINS = 2.0;
+const uint MOST_DOWN_READS = 10u;
+// Out of what the point stands beside.
+const float OUT_STEP_GRAINS = 0.2, LEAST_RISE_GRAINS = 0.02;
+const uint MOST_OUT_READS = 8u;
 
 uint shadowReads = 0u; // of this thread
-bool isMeanOfCell = false; // what was traced last, see partOfLight
+bool isMeanOfCell = false; // what was marched last, see partOfLight
 
 struct ShadowReading {
   float distanceWorld;
   float grain;
+  float coarsestGrain; // of all around the point: the field's, where one of them has no bricks
 };
 // By whoever includes this: from the field alone, or with bricks.
 //
-// fineMetres  what is told apart: distances beyond it are all the same but for steps
-ShadowReading readForShadow(vec3 pointAnchored, float fineMetres);
-// Metres to the objects with bricks that the last reading was of, near it; much where it was of the field alone.
-float distanceToRead(vec3 pointAnchored, float most);
+// fineMetres    what is told apart: distances beyond it are all the same but for steps
+// keepsObjects  only of those with bricks that the last reading was of, within fineMetres; much, where there are none
+ShadowReading readForShadow(vec3 pointAnchored, float fineMetres, bool keepsObjects);
 
-// On the way to a part of the light, after t metres along the axis. Where bricks end, or a cascade, the field begins to
-// make the surface thicker than the lift: what lies in the way there is asked once more, a coarser grain higher.
+// One march of many stages with one place where it reads: threads in different stages read together, and the program
+// stays small.
 //
-// across      metres a metre along the axis
-// fineMetres  what is told apart, and what touches the reader
-ShadowReading readOnWay(ShadowCone cone, vec3 across, float t, float fineMetres) {
-  float climbed = t * max(LIFT_FADE * dot(cone.normal, cone.axis), LIFT_GRAINS / MOST_LIFT_FADE_GRAINS), grain = cone.grain;
-  ShadowReading reading;
-  for (int i = 0; i < 2; ++i) {
-    vec3 lift = max(LIFT_GRAINS * grain - climbed, 0.0) * cone.normal;
-    reading = readForShadow(cone.origin + lift + t * (cone.axis + across), fineMetres);
-    bool isTouched = reading.distanceWorld < max(fineMetres, LEAST_WIDTH_GRAINS * reading.grain);
-    if (!isTouched || reading.grain <= grain || LIFT_GRAINS * reading.grain <= climbed) break;
-    grain = reading.grain;
-  }
-  return reading;
-}
+//   GRAIN  how fine the distances at the point are
+//   CONE   to the light, until something reaches into it
+//   DOWN   where what the cone's first reading was of is finer than the lift: whether that lies between the surface and
+//          the cone's beginning, as a saucer does over the floor
+//   OUT    where the point at a wall's foot lies within the half texel that the field adds to sheets: whether the way
+//          leads out of it from the first small step on. From the wall's far side it would cross the sheet first
+//   RAY    one after the other
+const uint GRAIN = 0u, DOWN = 1u, OUT = 2u, CONE = 3u, RAY = 4u, DONE = 5u;
+
+struct March {
+  uint stage;
+  uint reads;  // of the stage
+  float t;     // metres along the axis
+  float grain; // of the lift
+  float share; // what is seen of the light, once it is DONE
+  // CONE
+  float sure; // metres; free up to there
+  float relaxed;
+  // DOWN, OUT
+  float above; // the surface, metres
+  float ball;  // metres, and its grain: the cone's first reading, or the one before
+  float ballGrain;
+  // RAY
+  int ray;
+  int rays;
+  float start;  // of them all, metres along the axis
+  float width;  // of their fade, a metre
+  vec3 across;  // to which part of the light, metres a metre along the axis
+  float pace;
+  float free;   // how free the ray is where it is touched most
+  float sum;
+};
 
 // How far the cone goes on, and back (y), inside a ball around its axis that nothing reaches into.
 vec2 wayInBall(float ball, float radius, float spread) {
@@ -69,96 +92,172 @@ vec2 wayInBall(float ball, float radius, float spread) {
   return vec2(reach - along, reach + along) / a;
 }
 
-// Whether an object that the first reading was of, a saucer over the floor, lies between the surface and where the cone
-// begins: from there back down, as far as the surface itself cannot be meant.
-bool isLiftedThrough(ShadowCone cone, ShadowReading first) {
-  const float LEAST_STEP = 0.1, OWN_SURFACE_GRAINS = 2.0;
-  float lift = LIFT_GRAINS * cone.grain, above = lift, ball = first.distanceWorld;
-  for (int i = 0; i < 10; ++i) {
-    above -= max(ball, LEAST_STEP * lift);
-    if (above < OWN_SURFACE_GRAINS * first.grain) return false;
-    ball = distanceToRead(cone.origin + above * cone.normal, lift);
-    if (ball < 0.0) return true;
-  }
-  return false;
+void finish(inout March march, float share) {
+  march.stage = DONE;
+  march.share = share;
 }
 
-// A point at a wall's foot lies within the half texel that the field adds to sheets. The light comes from the free side
-// where the way leads out of it from the first small step on: from the far side it would cross the sheet first.
-//
-// returns metres along the axis, out of it; DARK
-float leaveNeighbour(ShadowCone cone, float ball) {
-  const float STEP_GRAINS = 0.2, LEAST_RISE_GRAINS = 0.02;
-  for (int i = 1; i <= 8; ++i) {
-    float t = float(i) * STEP_GRAINS * cone.grain;
-    ShadowReading reading = readOnWay(cone, vec3(0.0), t, 0.0);
-    if (reading.distanceWorld < ball + LEAST_RISE_GRAINS * cone.grain) return DARK;
-    ball = reading.distanceWorld;
-    if (ball > LEAST_WIDTH_GRAINS * reading.grain) return t;
-  }
-  return DARK;
+void begin(inout March march, uint stage, float t) {
+  march.stage = stage;
+  march.t = t;
+  march.reads = 0u;
 }
 
-// Steps go farther than a ball (Keinert and others 2014): where the next ball does not reach back to it, they go back.
-//
-// returns metres along the axis where the cone is first touched; LIT, DARK: it is free, or all of it is blocked
-float traceCone(ShadowCone cone) {
-  float t = 0.0, sure = 0.0; // metres; free up to there
-  float relaxed = RELAXED;
-  for (int i = 0; i < MOST_CONE_READS; ++i) {
-    float radius = cone.spread * t;
-    ShadowReading reading = readOnWay(cone, vec3(0.0), t, radius);
-    float ball = reading.distanceWorld, touch = max(radius, LEAST_WIDTH_GRAINS * reading.grain);
-    if (i == 0 && reading.grain < cone.grain && isLiftedThrough(cone, reading)) return DARK;
-    if (i == 0 && ball < touch) {
-      sure = t = leaveNeighbour(cone, ball);
-      if (t < 0.0) return DARK;
-      continue;
+// The next ray that leaves the surface, every second one first: where all of these see the light, or none does, so do
+// the others. Without one the march is done.
+void beginRay(inout March march, ShadowCone cone, int cell) {
+  int first = (march.rays + 1) / 2;
+  for (; march.ray < march.rays; ++march.ray) {
+    int i = march.ray;
+    if (i == first && first >= LEAST_SURE_RAYS && march.sum == float(first)) {
+      finish(march, 1.0);
+      return;
     }
-    vec2 way = wayInBall(ball, radius, cone.spread);
-    if (t > sure && (ball < touch || t - way.y > sure)) {
-      t = sure;
-      relaxed = 1.0;
-      continue;
+    int ray = i < first ? 2 * i : 2 * (i - first) + 1;
+    vec2 part = isMeanOfCell ? partOfLight(cone, ray, march.rays, cell) : partOfLight(cone, ray, march.rays);
+    march.across = part.x * cone.right + part.y * cone.up;
+    march.pace = inversesqrt(dot(cone.axis + march.across, cone.axis + march.across));
+    float horizon = dot(cone.normal, cone.axis + march.across) * march.pace;
+    march.free = clamp(0.5 + horizon / max(march.width, 1e-4), 0.0, 1.0);
+    if (march.free > 0.0) {
+      begin(march, RAY, march.start);
+      return;
     }
-    if (ball < -touch) return DARK;
-    if (ball < touch) return t;
-    float on = max(way.x, LEAST_STEP_GRAINS * reading.grain);
-    sure = t + on;
-    if (sure >= cone.end) return LIT;
-    t = min(t + relaxed * on, cone.end);
-    relaxed = RELAXED;
   }
-  return sure;
+  finish(march, march.sum / float(march.rays));
 }
 
-// How free a ray is, where it is touched most. It is blocked at the surface; just outside it is free to LEAD / (1 + LEAD),
-// for were it darker, all edges would move outwards and gaps narrower than the fade go dark; few rays then show steps,
-// which the sharing of pixels hides where penumbrae are wide, and a small fade where they are narrow. The fade would go on
-// inside, but sheets reach no depth: let it begin there, and thin closed things leak (a saucer). Before the light itself it
-// narrows, lest what holds a panel dims it.
-// across      to which part of the light, metres a metre along the axis
-// share       of the cone's radius to fade over
-// start       metres along the axis, nothing is in the way before
-float traceRay(ShadowCone cone, vec3 across, float share, float start) {
-  float pace = inversesqrt(dot(cone.axis + across, cone.axis + across)), horizon = dot(cone.normal, cone.axis + across) * pace;
-  float t = start, free = clamp(0.5 + horizon / max(share * cone.spread, 1e-4), 0.0, 1.0);
-  if (free <= 0.0) return 0.0;
-  for (int i = 0; i < MOST_RAY_READS; ++i) {
-    float width = min(share * cone.spread * t, 0.5 * (cone.lightAt - t));
-    ShadowReading reading = readOnWay(cone, across, t, width);
-    float ball = reading.distanceWorld;
-    float past = ball - BLOCKED_GRAINS * reading.grain;
-    if (past <= 0.0) return 0.0;
-    free = min(free, (past + LEAD * width) / (max(width, LEAST_WIDTH_GRAINS * reading.grain) + LEAD * width));
-    t += pace * max(ball, LEAST_STEP_GRAINS * reading.grain);
-    if (t >= cone.end) return free;
-  }
-  return 0.0; // what creeps along a surface for so long
+void endRay(inout March march, ShadowCone cone, float free, int cell) {
+  march.sum += free;
+  ++march.ray;
+  beginRay(march, cone, cell);
 }
 
-// The visible share of the light, 0 to 1. Every second ray goes first: where all of these see the light, or none does,
-// so do the others.
+void beginRays(inout March march, ShadowCone cone, float start, float softness, int cell) {
+  if (cone.spread == 0.0) march.rays = 1;
+  isMeanOfCell = cone.spread * start > SHARED_PIXELS * float(march.rays) * cone.pixel;
+  march.width = softness * FADE * inversesqrt(float(march.rays)) * cone.spread;
+  // Of a rectangle, of the disk of its area: 4 a b / pi.
+  if (cone.isRectangle) march.width *= sqrt(1.2732395 * length(cone.right) * length(cone.up)) / cone.spread;
+  march.start = start;
+  march.ray = 0;
+  march.sum = 0.0;
+  beginRay(march, cone, cell);
+}
+
+void stepGrain(inout March march, inout ShadowCone cone, ShadowReading reading) {
+  cone.grain = march.grain = reading.coarsestGrain;
+  if (cone.isRectangle) cone.end = min(cone.end, max(cone.lightAt - reading.grain, 0.0)); // there it begins
+  begin(march, CONE, 0.0);
+}
+
+// On by a ball of the cone that nothing reaches into, and farther (Keinert and others 2014).
+void goOn(inout March march, ShadowCone cone, float way, float grain) {
+  float on = max(way, LEAST_STEP_GRAINS * grain);
+  march.sure = march.t + on;
+  march.t = min(march.t + march.relaxed * on, cone.end);
+  march.relaxed = RELAXED;
+  if (march.sure >= cone.end) finish(march, 1.0);
+}
+
+// The cone's first step, once nothing is known to lie below where it begins.
+void leaveSurface(inout March march, ShadowCone cone) {
+  march.stage = CONE;
+  march.reads = 1u;
+  if (march.ball < LEAST_WIDTH_GRAINS * march.ballGrain)
+    begin(march, OUT, OUT_STEP_GRAINS * cone.grain);
+  else
+    goOn(march, cone, march.ball, march.ballGrain);
+}
+
+void stepCone(inout March march, ShadowCone cone, ShadowReading reading, float softness, int cell) {
+  float radius = cone.spread * march.t, ball = reading.distanceWorld, touch = max(radius, LEAST_WIDTH_GRAINS * reading.grain);
+  if (march.reads == 1u) {
+    march.ball = ball;
+    march.ballGrain = reading.grain;
+    march.above = LIFT_GRAINS * cone.grain - max(ball, LEAST_DOWN * LIFT_GRAINS * cone.grain);
+    if (reading.grain < cone.grain && march.above >= OWN_SURFACE_GRAINS * reading.grain)
+      begin(march, DOWN, 0.0);
+    else
+      leaveSurface(march, cone);
+    return;
+  }
+  vec2 way = wayInBall(ball, radius, cone.spread);
+  if (march.t > march.sure && (ball < touch || march.t - way.y > march.sure)) { // the ball does not reach back: there again
+    march.t = march.sure;
+    march.relaxed = 1.0;
+  } else if (ball < -touch) {
+    finish(march, 0.0);
+  } else if (ball < touch) {
+    beginRays(march, cone, march.t, softness, cell);
+  } else {
+    goOn(march, cone, way.x, reading.grain);
+  }
+  if (march.stage == CONE && march.reads >= MOST_CONE_READS) beginRays(march, cone, march.sure, softness, cell);
+}
+
+void stepDown(inout March march, ShadowCone cone, ShadowReading reading) {
+  march.above -= max(reading.distanceWorld, LEAST_DOWN * LIFT_GRAINS * cone.grain);
+  if (reading.distanceWorld < 0.0)
+    finish(march, 0.0);
+  else if (march.reads >= MOST_DOWN_READS || march.above < OWN_SURFACE_GRAINS * march.ballGrain)
+    leaveSurface(march, cone);
+}
+
+void stepOut(inout March march, ShadowCone cone, ShadowReading reading) {
+  bool isOut = reading.distanceWorld > LEAST_WIDTH_GRAINS * reading.grain;
+  if (reading.distanceWorld < march.ball + LEAST_RISE_GRAINS * cone.grain || (!isOut && march.reads >= MOST_OUT_READS)) {
+    finish(march, 0.0);
+  } else if (isOut) {
+    march.stage = CONE;
+    march.reads = 1u;
+    march.sure = march.t;
+  } else {
+    march.ball = reading.distanceWorld;
+    march.t += OUT_STEP_GRAINS * cone.grain;
+  }
+}
+
+// Before the light itself the fade narrows, lest what holds a panel dims it.
+float fadeWidth(March march, ShadowCone cone) { return min(march.width * march.t, 0.5 * (cone.lightAt - march.t)); }
+
+// A ray is blocked at the surface; just outside it is free to LEAD / (1 + LEAD), for were it darker, all edges would move
+// outwards and gaps narrower than the fade go dark; few rays then show steps, which the sharing of pixels hides where
+// penumbrae are wide, and a small fade where they are narrow. The fade would go on inside, but sheets reach no depth: let
+// it begin there, and thin closed things leak (a saucer).
+void stepRay(inout March march, ShadowCone cone, ShadowReading reading, int cell) {
+  float past = reading.distanceWorld - BLOCKED_GRAINS * reading.grain, width = fadeWidth(march, cone), lead = LEAD * width;
+  march.free = min(march.free, (past + lead) / (max(width, LEAST_WIDTH_GRAINS * reading.grain) + lead));
+  march.t += march.pace * max(reading.distanceWorld, LEAST_STEP_GRAINS * reading.grain);
+  bool isStuck = march.reads >= MOST_RAY_READS && march.t < cone.end; // what creeps along a surface for so long
+  if (past <= 0.0 || isStuck)
+    endRay(march, cone, 0.0, cell);
+  else if (march.t >= cone.end)
+    endRay(march, cone, march.free, cell);
+}
+
+// What the way climbs over the surface makes up for the lift, metres.
+float climbed(March march, ShadowCone cone) {
+  return march.t * max(LIFT_FADE * dot(cone.normal, cone.axis), LIFT_GRAINS / MOST_LIFT_FADE_GRAINS);
+}
+
+// Where the march reads next.
+vec3 placeOf(March march, ShadowCone cone) {
+  float lift = max(LIFT_GRAINS * march.grain - climbed(march, cone), 0.0);
+  if (march.stage == GRAIN) lift = 0.0;
+  if (march.stage == DOWN) lift = march.above;
+  return cone.origin + lift * cone.normal + march.t * (cone.axis + march.across);
+}
+
+// Where bricks end, or a cascade, the field begins to make the surface thicker than the lift: what lies in the way there
+// is asked once more, a coarser grain higher.
+bool isToBeRaised(March march, ShadowCone cone, ShadowReading reading, float fineMetres) {
+  bool isTouched = reading.distanceWorld < max(fineMetres, LEAST_WIDTH_GRAINS * reading.grain);
+  return march.stage >= OUT && isTouched && march.grain == cone.grain && reading.grain > cone.grain &&
+         LIFT_GRAINS * reading.grain > climbed(march, cone);
+}
+
+// The visible share of the light, 0 to 1.
 //
 // rays      at most so many
 // softness  of the fade between them: 1 as wide as they are apart, about
@@ -166,19 +265,33 @@ float traceRay(ShadowCone cone, vec3 across, float share, float start) {
 float shadowOf(ShadowCone cone, int rays, float softness, int cell) {
   isMeanOfCell = false;
   if (dot(cone.normal, cone.axis) < -cone.spread) return 0.0; // behind the surface's horizon
-  float start = traceCone(cone);
-  if (start < 0.0) return start == LIT ? 1.0 : 0.0;
-  if (cone.spread == 0.0) rays = 1;
-  isMeanOfCell = cone.spread * start > SHARED_PIXELS * float(rays) * cone.pixel;
-  float sum = 0.0, share = softness * FADE * inversesqrt(float(rays));
-  // Of a rectangle, of the disk of its area: 4 a b / pi.
-  if (cone.isRectangle) share *= sqrt(1.2732395 * length(cone.right) * length(cone.up)) / cone.spread;
-  int first = (rays + 1) / 2;
-  for (int i = 0; i < rays; ++i) {
-    if (i == first && first >= LEAST_SURE_RAYS && sum == float(first)) return sum / float(first);
-    int ray = i < first ? 2 * i : 2 * (i - first) + 1;
-    vec2 part = isMeanOfCell ? partOfLight(cone, ray, rays, cell) : partOfLight(cone, ray, rays);
-    sum += traceRay(cone, part.x * cone.right + part.y * cone.up, share, start);
+  March march;
+  march.across = vec3(0.0);
+  march.grain = 0.0;
+  march.sure = 0.0;
+  march.relaxed = RELAXED;
+  march.rays = rays;
+  begin(march, GRAIN, 0.0);
+  while (march.stage != DONE) {
+    float fine = march.stage == CONE ? cone.spread * march.t : march.stage == RAY ? fadeWidth(march, cone) : 0.0;
+    if (march.stage == DOWN) fine = LIFT_GRAINS * cone.grain;
+    ShadowReading reading = readForShadow(placeOf(march, cone), fine, march.stage == DOWN);
+    if (isToBeRaised(march, cone, reading, fine)) {
+      march.grain = reading.grain;
+      continue;
+    }
+    march.grain = cone.grain;
+    ++march.reads;
+    if (march.stage == RAY)
+      stepRay(march, cone, reading, cell);
+    else if (march.stage == CONE)
+      stepCone(march, cone, reading, softness, cell);
+    else if (march.stage == OUT)
+      stepOut(march, cone, reading);
+    else if (march.stage == DOWN)
+      stepDown(march, cone, reading);
+    else
+      stepGrain(march, cone, reading);
   }
-  return sum / float(rays);
+  return march.share;
 }

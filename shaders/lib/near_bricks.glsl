@@ -14,6 +14,8 @@ layout(std430, binding = kNodeRowBinding) readonly buffer NodeRowBlock { uint no
 // The field makes things thicker by half a texel, and more where they are thin.
 const float BRICKS_END_TEXELS = 1.0;
 const uint MOST_NODE_INSTANCES = 8u;
+// By as much the field may make an object nearer than it is: thin ones are a texel thick in it.
+const float THICKENED_TEXELS = 0.75;
 // Level voxels: up to here no corner that weighs in a stored distance is clamped; and nearer than half of that, the next
 // finer level is not clamped either.
 const float UNCLAMPED_VOXELS = 2.8, FINER_VOXELS = 1.4;
@@ -24,9 +26,10 @@ struct NearDistance {
   uint reads;
 };
 
-// The rows of the nodes that the eight texels around a place name, as in nodeRows; 0: no more. None where one of them
-// has no bricks or there are more than four. Kept while a ray stays between the same texels.
+// The rows of up to four of the nodes that the eight texels around a place name, as in nodeRows; 0: no more. Whether
+// these are all: others have no bricks, or are too many. Kept while a ray stays between the same texels.
 uvec4 rowsBetweenTexels = uvec4(0u);
+bool areAllBetweenTexels = true;
 uint lowestTexelWord = FIELD_NONE; // whose they are
 
 void findRows(FieldCascade cascade, ivec3 lowest) {
@@ -34,17 +37,19 @@ void findRows(FieldCascade cascade, ivec3 lowest) {
   if (word == lowestTexelWord) return;
   lowestTexelWord = word;
   rowsBetweenTexels = uvec4(0u);
-  uvec4 known = uvec4(0u), rows = uvec4(0u);
+  areAllBetweenTexels = true;
+  uvec4 known = uvec4(0u);
   for (int corner = 0; corner < 8; ++corner) {
     uint node = worldFieldNodes[texelWord(cascade, lowest + ivec3(corner & 1, corner >> 1 & 1, corner >> 2))] & FIELD_NODE_MASK;
-    if (node == 0u) return;
-    if (any(equal(known, uvec4(node)))) continue;
+    if (node == 0u || any(equal(known, uvec4(node)))) continue;
     uint row = nodeRows[node - 1u];
-    if (known.w != 0u || row == NO_BRICKS) return;
+    if (known.w != 0u || row == NO_BRICKS) {
+      areAllBetweenTexels = false;
+      continue;
+    }
     known = uvec4(node, known.xyz);
-    rows = uvec4(row, rows.xyz);
+    rowsBetweenTexels = uvec4(row, rowsBetweenTexels.xyz);
   }
-  rowsBetweenTexels = rows;
 }
 
 vec3 timesGridRows(uint row, vec3 wayAnchored) {
@@ -82,12 +87,14 @@ vec2 readFineEnough(int firstLevel, int levels, vec3 pointGrid, float metres, fl
 }
 
 // The distance to one object. Beyond its box it lies between two bounds, and the field tells where.
-void joinObject(uint row, vec3 pointAnchored, float metres, float fineMetres, inout NearDistance nearest) {
+//
+// mostMetres  what is farther than this is not joined
+void joinObject(uint row, vec3 pointAnchored, float metres, float mostMetres, float fineMetres, inout NearDistance nearest) {
   vec3 gridOrigin = vec3(sdfInstances[row].worldFromGrid[0].w, sdfInstances[row].worldFromGrid[1].w, sdfInstances[row].worldFromGrid[2].w);
   vec4 boxMin = sdfInstances[row].boxMin, boxMax = sdfInstances[row].boxMax;
   vec3 pointGrid = timesGridRows(row, pointAnchored - (gridOrigin - field.anchor.xyz)), q = clamp(pointGrid, boxMin.xyz, boxMax.xyz);
   float outer = distance(pointGrid, q), least = boxMax.w, most = boxMin.w;
-  if (least * outer > abs(metres) + most) return; // no nearer than the field says, and a voxel
+  if (least * outer > mostMetres + most) return;
   ivec4 ids = sdfInstances[row].ids;
   vec2 read = readFineEnough(ids.y, ids.z, q, metres, least, fineMetres, nearest.reads);
   float lower = outer > 0.0 ? least * length(vec2(max(read.x, 0.0), outer)) : min(least * read.x, most * read.x);
@@ -98,25 +105,35 @@ void joinObject(uint row, vec3 pointAnchored, float metres, float fineMetres, in
   nearest.grain = most * read.y;
 }
 
+uint endOfRow(uint row) { return (row & 0xffffffu) + min(row >> 24, MOST_NODE_INSTANCES); }
+
 // The least distance to the objects whose rows were found last.
-void joinRows(vec3 pointAnchored, float metres, float fineMetres, inout NearDistance nearest) {
-  for (int i = 0; i < 4 && rowsBetweenTexels[i] != 0u; ++i) {
-    uint first = rowsBetweenTexels[i] & 0xffffffu, end = first + min(rowsBetweenTexels[i] >> 24, MOST_NODE_INSTANCES);
-    for (uint row = first; row < end; ++row) joinObject(row, pointAnchored, metres, fineMetres, nearest);
-  }
+void joinRows(vec3 pointAnchored, float metres, float mostMetres, float fineMetres, inout NearDistance nearest) {
+  for (uvec4 rows = rowsBetweenTexels; rows.x != 0u; rows = uvec4(rows.yzw, 0u))
+    for (uint row = rows.x & 0xffffffu; row < endOfRow(rows.x); ++row) joinObject(row, pointAnchored, metres, mostMetres, fineMetres, nearest);
 }
 
-// What was read of one cascade, made exact where all objects around have bricks.
+bool isBesideSurface(FieldReading reading, float texel, float fineMetres) {
+  return reading.cascade >= 0 && abs(reading.distanceWorld) <= BRICKS_END_TEXELS * texel + fineMetres;
+}
+
+// Whether what the field reads is of the objects that were joined.
+bool isMeant(NearDistance nearest, float metres, float texel) {
+  return nearest.distanceWorld < 3e38 && (areAllBetweenTexels || nearest.distanceWorld - metres < THICKENED_TEXELS * texel);
+}
+
+// What was read of one cascade, made exact by the bricks of the objects around. What has none there is as near as the
+// field says, unless what the field says of an object with bricks explains it.
 //
 // fineMetres  what the reader tells apart: distances beyond it are all the same to it
 NearDistance refineByBricks(vec3 pointAnchored, FieldReading reading, float texel, float fineMetres) {
   NearDistance refined = NearDistance(reading.distanceWorld, texel, 0u);
-  if (reading.cascade < 0 || abs(reading.distanceWorld) > BRICKS_END_TEXELS * texel + fineMetres) return refined;
+  if (!isBesideSurface(reading, texel, fineMetres)) return refined;
   FieldCascade cascade = field.cascades[reading.cascade];
   findRows(cascade, ivec3(floor(pointAnchored * cascade.texel.y - 0.5)));
   NearDistance nearest = NearDistance(3.4e38, texel, 0u);
-  joinRows(pointAnchored, reading.distanceWorld, fineMetres, nearest);
+  joinRows(pointAnchored, reading.distanceWorld, abs(reading.distanceWorld) + THICKENED_TEXELS * texel, fineMetres, nearest);
   refined.reads = nearest.reads;
-  if (nearest.distanceWorld > 3e38) return refined;
-  return nearest;
+  if (isMeant(nearest, reading.distanceWorld, texel)) return nearest;
+  return refined;
 }

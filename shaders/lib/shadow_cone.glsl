@@ -20,13 +20,20 @@ struct ShadowCone {
   float spread; // radius a metre of the disk, or of one around the rectangle
   float end;    // metres: the light is there, or the field ends
   float lightAt; // metres: the light is there; 3.4e38 for suns
-  float grain;  // metres, of what is read at the origin
+  float grain;  // metres, of what is read at the origin; by who marches
   float pixel;  // metres that a pixel spans at the origin, at most
 };
 
 // Metres.
 float texelOf(FieldReading reading) {
   return field.cascades[reading.cascade < 0 ? int(field.counts.x) - 1 : reading.cascade].texel.x;
+}
+
+// Of the finest cascade around a point.
+float texelAt(vec3 pointAnchored) {
+  int last = int(field.counts.x) - 1, c = 0;
+  while (c < last && !isHeldByField(fieldDepth(c, pointAnchored * field.cascades[c].texel.y))) ++c;
+  return field.cascades[c].texel.x;
 }
 
 // Two unit vectors across an axis.

@@ -30,8 +30,6 @@ float visibleShare(ShadowCone cone, int light, ivec2 pixel, int cell);
 bool isOfCell();
 // Distances that this thread read.
 uint readsOfThread();
-// Metres: what a reading there is not finer than.
-float grainAt(vec3 pointAnchored);
 
 struct ShadowedPixel {
   vec3 pointEye;
@@ -48,7 +46,7 @@ ShadowedPixel shadowedPixel(ivec2 pixel) {
   return ShadowedPixel(originEye + t * directionWorld, normal, t, kindOfId(texelFetch(id, pixel, 0).r) != KIND_NONE);
 }
 
-// Without a grain and an end.
+// Without an end.
 ShadowCone coneTo(LightRow light, ShadowedPixel pixel) {
   ShadowCone cone;
   cone.origin = pixel.pointEye + frame.eyeAnchored.xyz;
@@ -75,9 +73,8 @@ ShadowCone coneTo(LightRow light, ShadowedPixel pixel) {
   return cone;
 }
 
-float marchLight(int number, ShadowCone cone, ivec2 pixel, int cell, float grain) {
-  cone.grain = grain;
-  float before = cone.isRectangle ? grain : lights[number].intensity.w; // the light begins
+float marchLight(int number, ShadowCone cone, ivec2 pixel, int cell) {
+  float before = cone.isRectangle ? 0.0 : lights[number].intensity.w; // the light begins
   cone.end = min(max(cone.lightAt - before, 0.0), leavesField(cone.origin, cone.axis, cone.spread));
   return visibleShare(cone, number, pixel, cell);
 }
@@ -88,7 +85,6 @@ vec4 marchPixel(ivec2 pixel, int cell, ShadowedPixel surface, float pixelMetres,
   vec4 visible = vec4(1.0);
   isWide = bvec4(false);
   if (!surface.isSurface) return visible;
-  float grain = -1.0; // read once something is marched
   for (int i = 0; i < min(int(frame.size.z), MOST_SHADOWED_LIGHTS); ++i) {
     ShadowCone cone = coneTo(lights[i], surface);
     cone.pixel = pixelMetres;
@@ -96,8 +92,7 @@ vec4 marchPixel(ivec2 pixel, int cell, ShadowedPixel surface, float pixelMetres,
     visible[i] = shareByMaps(i, cone, surface.pointEye);
     if (visible[i] != MAP_UNSURE) continue;
 #endif
-    if (grain < 0.0) grain = grainAt(cone.origin);
-    visible[i] = marchLight(i, cone, pixel, cell, grain);
+    visible[i] = marchLight(i, cone, pixel, cell);
     isWide[i] = isOfCell();
   }
   return visible;

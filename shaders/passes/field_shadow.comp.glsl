@@ -7,15 +7,13 @@ const int GROUP_WIDTH = 8, GROUP_HEIGHT = 4;
 uniform int raysOfPenumbra;
 uniform float softness;
 
-ShadowReading readForShadow(vec3 pointAnchored, float fineMetres) {
+ShadowReading readForShadow(vec3 pointAnchored, float fineMetres, bool keepsObjects) {
   ++shadowReads;
   FieldReading reading = readWorldField(pointAnchored);
-  return ShadowReading(reading.distanceWorld, texelOf(reading));
+  float texel = texelOf(reading);
+  return ShadowReading(keepsObjects ? 3.4e38 : reading.distanceWorld, texel, texel);
 }
 
-float distanceToRead(vec3 pointAnchored, float most) { return 3.4e38; }
-
 uint readsOfThread() { return shadowReads; }
-float grainAt(vec3 pointAnchored) { return texelOf(readWorldField(pointAnchored)); }
 float visibleShare(ShadowCone cone, int light, ivec2 pixel, int cell) { return shadowOf(cone, raysOfPenumbra, softness, cell); }
 bool isOfCell() { return isMeanOfCell; }

@@ -10,9 +10,9 @@ uniform float mostStep; // of half the coarsest window
 uniform uint seed;
 
 uint readsOfThread() { return shadowReads; }
-float grainAt(vec3 pointAnchored) { return texelOf(readWorldField(pointAnchored)); }
 bool isOfCell() { return false; }
 float visibleShare(ShadowCone cone, int light, ivec2 pixel, int cell) {
+  cone.grain = texelAt(cone.origin);
   FieldCascade coarsest = field.cascades[int(field.counts.x) - 1];
   float step = mostStep * 0.5 * float(coarsest.window.w) * coarsest.texel.x;
   return publishedShadow(cone, estimator, raysOfPenumbra, step, uvec3(pixel, seed + 31u * uint(light)));

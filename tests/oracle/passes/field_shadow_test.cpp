@@ -218,6 +218,41 @@ TEST_F(FieldShadow, GapsNarrowerThanPenumbraeLetTheirShareThrough) {
   EXPECT_NEAR(sum / static_cast<double>(count), 0.5 - 0.5 * slant, 0.03);
 }
 
+// In the field a thin plate is a texel thick, which reaches beyond the box of its bricks: there too these decide, also
+// beside something without bricks that is no nearer.
+TEST_F(FieldShadow, ThinPlatesWithBricksCastNoWiderShadows) {
+  constexpr float kHalf = 0.006f;
+  for (const bool hasNeighbour : {false, true}) {
+    Scene built = slabOverFloor();
+    built.nodes[1].name = "Plate";
+    built.nodes[1].matrix = glm::translate(glm::mat4(1), {0, 0.5f, 0});
+    built.meshes[1] = makeBoxMesh({kHalf, 0.15f, 0.3f});
+    if (hasNeighbour) {
+      built.nodes.push_back({});
+      built.nodes[2].mesh = 2;
+      built.nodes[2].matrix = glm::translate(glm::mat4(1), {-kHalf - 0.05f, 0.5f, 0});
+      built.meshes.push_back(makeBoxMesh({0.05f, 0.15f, 0.3f}));
+      built.scenes[0].nodes.push_back(2);
+    }
+    const TestScene scene(std::move(built), "Plate", 256);
+    const auto renderer = scene.makeRenderer(context().info(), marching(64)); // texels of 0.0375 m
+    renderer->setLighting(overheadSun(scene, 0.5));
+    const View view = scene.view({0.5f, 0.3f, 0}, {0, 0, 0}, kSize, 12);
+    renderer->render(view);
+    double width = 0;
+    std::size_t all = 0, dark = 0;
+    for (const FloorSample& sample : floorSamples(view, renderer->readLayers())) {
+      if (std::abs(sample.z) > 0.05 || sample.x < 0) continue;
+      ++all;
+      width += 1 - sample.visible;
+      dark += sample.x > kHalf + 0.006 && sample.visible < 0.98;
+    }
+    ASSERT_GT(all, 10000u);
+    EXPECT_GT(width, 0.0);
+    EXPECT_LE(dark, all / 1000) << (hasNeighbour ? "beside a block" : "alone");
+  }
+}
+
 // Light that grazes an object's plate begins at its voxels. Behind the plate's upper half stands a block without
 // bricks: there the field alone answers, in which the plate is thicker than the way is high.
 TEST_F(FieldShadow, GrazingLightPassesWhereBricksEnd) {
