@@ -21,14 +21,15 @@ SolidWinding::SolidWinding(const TriangleSoup& soup, const MeshTopology& topolog
   std::vector<std::uint32_t> closedTriangles, openTriangles;
   for (const std::uint32_t triangle : triangles)
     (topology.inClosedComponent[triangle] ? closedTriangles : openTriangles).push_back(triangle);
-  const auto makePart = [&](std::optional<Part>& part, const std::vector<std::uint32_t>& members, float farRadii) {
+  const auto makePart = [&]<typename Winding>(std::optional<Part<Winding>>& part,
+                                              const std::vector<std::uint32_t>& members, auto... settings) {
     if (members.empty()) return;
     const bool isWhole = whole && members.size() == triangles.size();
     auto hierarchy = isWhole ? nullptr : std::make_unique<MeshHierarchy>(soup, members);
-    WindingNumber winding(isWhole ? *whole : *hierarchy, farRadii);
-    part.emplace(Part{std::move(hierarchy), std::move(winding)});
+    Winding winding(isWhole ? *whole : *hierarchy, settings...);
+    part.emplace(Part<Winding>{std::move(hierarchy), std::move(winding)});
   };
-  makePart(closed_, closedTriangles, WindingNumber::kFarRadiiOfWhole);
+  makePart(closed_, closedTriangles);
   if (openTriangles.empty()) return;
   rims_.emplace(soup, openTriangles);
   makePart(open_, openTriangles, rims_->areMany() ? WindingNumber::kFarRadii : WindingNumber::kFarRadiiOfWhole);
@@ -36,15 +37,13 @@ SolidWinding::SolidWinding(const TriangleSoup& soup, const MeshTopology& topolog
 
 std::size_t SolidWinding::bytes() const {
   std::size_t sum = 0;
-  for (const std::optional<Part>* part : {&closed_, &open_})
-    if (*part) sum += (*part)->winding.bytes() + ((*part)->hierarchy ? (*part)->hierarchy->bytes() : 0);
+  if (closed_ && closed_->hierarchy) sum += closed_->hierarchy->bytes();
+  if (open_) sum += open_->winding.bytes() + (open_->hierarchy ? open_->hierarchy->bytes() : 0);
   if (rims_) sum += rims_->bytes();
   return sum;
 }
 
-double SolidWinding::closedTurns(glm::dvec3 point) const {
-  return closed_ ? static_cast<double>(closed_->winding.at(point)) : 0.0;
-}
+double SolidWinding::closedTurns(glm::dvec3 point) const { return closed_ ? closed_->winding.at(point) : 0; }
 
 double SolidWinding::excess(glm::dvec3 point, double exactTurns) const {
   const double closed = closedTurns(point);

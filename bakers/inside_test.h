@@ -9,6 +9,7 @@
 
 #include "bakers/pseudonormals.h"
 #include "bakers/ray_parity.h"
+#include "bakers/ray_winding.h"
 #include "bakers/rims.h"
 #include "bakers/winding_number.h"
 
@@ -46,15 +47,17 @@ private:
   double excess(glm::dvec3 point, double exactTurns) const;
   /// By the exact fraction of the open triangles' number.
   double excessBy(glm::dvec3 point, double fraction) const;
-  /// Of closed ones. Infinite where open ones do not matter.
+  /// Of closed ones, a whole number.
   double closedTurns(glm::dvec3 point) const;
   double excessOf(double turns) const { return (signless_ ? std::abs(turns) : turns) - 0.5; }
 
+  template <typename Winding>
   struct Part {
     std::unique_ptr<MeshHierarchy> hierarchy; ///< nothing where it is the whole one
-    WindingNumber winding;
+    Winding winding;
   };
-  std::optional<Part> closed_, open_;
+  std::optional<Part<RayWinding>> closed_;
+  std::optional<Part<WindingNumber>> open_;
   std::optional<Rims> rims_; ///< of the open ones
   bool signless_;
 };

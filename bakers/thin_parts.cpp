@@ -19,6 +19,7 @@ constexpr std::size_t kFirstPlaces = 1024; // a share that matters, 1 %, shows a
 constexpr float kGrownVoxels = 3.0f;
 // An edge has no side: the closest point is drawn into its triangle.
 constexpr double kOffEdgeVoxels = 1.0 / 16;
+constexpr double kOffEdge = 1.0 / 256; // share of the way to the centroid: the first place would lie on an edge
 
 struct Place {
   std::uint32_t triangle = kNoTriangle;
@@ -48,6 +49,7 @@ public:
     const std::uint32_t triangle = triangles_[static_cast<std::size_t>(found)];
     glm::dvec2 weights(fraction(0.75487766624669276), fraction(0.56984029099805327));
     if (weights.x + weights.y > 1) weights = 1.0 - weights;
+    weights = glm::mix(weights, glm::dvec2(1.0 / 3), kOffEdge);
     const auto [a, b, c] = soup_.corners(triangle);
     return {triangle, a + weights.x * (b - a) + weights.y * (c - a)};
   }

@@ -22,7 +22,7 @@ class WindingNumber {
 public:
   /// Beyond so many radii of the ball around its box a cluster counts as far.
   static constexpr float kFarRadii = 2.0f; ///< what Barill et al. advise for three terms
-  /// For closed surfaces, whose number is whole: an error of a tenth leaves it clear.
+  /// Where the number is known but for whole turns: an error of a tenth leaves those clear.
   static constexpr float kFarRadiiOfWhole = 1.25f;
 
   /// hierarchy must outlive this
