@@ -16,8 +16,7 @@ namespace brickfield {
 
 namespace {
 
-constexpr float kEighthRadius = 2.5980762f; // half the diagonal of a cube of three voxels
-constexpr float kEightRadius = 0.8660254f;  // and of one
+constexpr float kHalfDiagonal = 0.8660254f; // of a cube
 constexpr float kHalfBrick = 0.5f * static_cast<float>(kBrickCells);
 constexpr float kPickSlackVoxels = 1e-3f; // over the rounding of distances up to some tens of voxels
 

@@ -4,9 +4,9 @@
 // inside the triangle where s >= 0 for all three edges; else the closest edge is s^2 + e^2 away within the plane, e
 // how far t lies beyond the edge's ends.
 //
-// Of the triangles around a brick those that come into question for its eighths of 4^3 samples are picked by the
-// distances of their centres: no point is farther from its closest triangle than the centre from its own and the way
-// between. The same picks those for each 2^3 samples, which are measured as the lanes of one vector.
+// Of the triangles around a brick those that come into question for its eighths of 4^3 samples are picked by their
+// distances to the eighths' centres, and of those the ones for each 2^3 samples, which are measured as the lanes of one
+// vector.
 
 #include "bakers/wide.inl"
 
@@ -23,8 +23,12 @@ WIDE_INLINE Vector4d crossOf(const Vector4d& a, const Vector4d& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 WIDE_INLINE Double4 rootOf(Double4 v) {
+#if defined(__AVX__)
+  return __builtin_ia32_sqrtpd256(v);
+#else
   for (std::size_t i = 0; i < 4; ++i) v[i] = std::sqrt(v[i]);
   return v;
+#endif
 }
 
 /// Four doubles to a member of four frames; gives them back as rounded.
@@ -97,20 +101,47 @@ WIDE_INLINE Wide frameDistancesSquared(const BlockFrame& frame, const Wide3& poi
   return height * height + (leastInward >= zero ? zero : within);
 }
 
-/// The frames of a list that may be closest to a point within a radius of each of eight centres, and no farther than
-/// `most_`: no point is farther from its closest triangle than the centre from its own and the way between.
+/// Corners of a cube of two samples' side, or centres that are so far apart.
+WIDE_INLINE Wide3 eightFrom(glm::vec3 first, float step) {
+  return {wide(first.x) + wide(step) * Wide{0, 1, 0, 1, 0, 1, 0, 1}, wide(first.y) + wide(step) * Wide{0, 0, 1, 1, 0, 0, 1, 1},
+          wide(first.z) + wide(step) * Wide{0, 0, 0, 0, 1, 1, 1, 1}};
+}
+
+/// Eight cubes: of the eighths of a brick, or of the eights of an eighth.
+struct EightCubes {
+  glm::vec3 first;    ///< the lowest corner of the first cube
+  float apart, side;  ///< from one to the next, and along each
+};
+
+/// The frames of a list that may be closest to a point of each cube, and no farther than `most_`. No point of a cube is
+/// farther from its closest triangle than the farthest corner from any one, as the distance to a triangle is convex:
+/// from the one that is closest to the cube's centre.
 ///
 /// count, placeOf(i)  the list, ascending
 template <typename PlaceOf>
-WIDE_INLINE void pick(const BlockFrame* frames, std::size_t count, const PlaceOf& placeOf, const Wide3& centers, float radius,
+WIDE_INLINE void pick(const BlockFrame* frames, std::size_t count, const PlaceOf& placeOf, const EightCubes& cubes,
                       float most_, EightPicks& picks) {
   Wide squares[kMostBlockTriangles];
   Wide nearest = wide(HUGE_VALF);
+  WideMask nearestAt{};
+  const Wide3 centers = eightFrom(cubes.first + 0.5f * cubes.side, cubes.apart);
   for (std::size_t i = 0; i < count; ++i) {
     squares[i] = frameDistancesSquared(frames[placeOf(i)], centers);
+    const auto at = static_cast<std::int32_t>(i);
+    nearestAt = squares[i] < nearest ? WideMask{at, at, at, at, at, at, at, at} : nearestAt;
     nearest = least(nearest, squares[i]);
   }
-  const Wide reach = least(rootOf(nearest) + wide(2 * radius), wide(most_ + radius)) + wide(kPickSlackVoxels);
+  Wide farthestCorners{};
+  for (int lane = 0; lane < 8 && count > 0; ++lane) {
+    const glm::vec3 corner = cubes.first + cubes.apart * glm::vec3(lane & 1, lane >> 1 & 1, lane >> 2);
+    const Wide ofCorners = frameDistancesSquared(frames[placeOf(static_cast<std::size_t>(nearestAt[lane]))],
+                                                 eightFrom(corner, cubes.side));
+    float farthest = ofCorners[0];
+    for (int i = 1; i < 8; ++i) farthest = std::max(farthest, ofCorners[i]);
+    farthestCorners[lane] = farthest;
+  }
+  const float radius = kHalfDiagonal * cubes.side;
+  const Wide reach = least(rootOf(farthestCorners), wide(most_)) + wide(radius + kPickSlackVoxels);
   const Wide reachSquared = reach * reach;
   picks.counts.fill(0);
   for (std::size_t i = 0; i < count; ++i)
@@ -118,12 +149,6 @@ WIDE_INLINE void pick(const BlockFrame* frames, std::size_t count, const PlaceOf
       const auto lane = static_cast<std::size_t>(std::countr_zero(within));
       picks.places[lane][picks.counts[lane]++] = static_cast<std::uint16_t>(placeOf(i));
     }
-}
-
-/// Corners of a cube of two samples' side, or centres that are so far apart.
-WIDE_INLINE Wide3 eightFrom(glm::vec3 first, float step) {
-  return {wide(first.x) + wide(step) * Wide{0, 1, 0, 1, 0, 1, 0, 1}, wide(first.y) + wide(step) * Wide{0, 0, 1, 1, 0, 0, 1, 1},
-          wide(first.z) + wide(step) * Wide{0, 0, 0, 0, 1, 1, 1, 1}};
 }
 
 /// The 2^3 samples from a sample on.
@@ -164,13 +189,13 @@ void measureBlock(const BlockRequest& request, BlockFrame* frames, float* distan
   for (std::size_t i = 0; i < count; i += 4) setFrames(frames, i, request);
   EightPicks ofEighths, ofEights;
   const auto itself = [](std::size_t i) { return i; };
-  pick(frames, count, itself, eightFrom(glm::vec3(-2.0f), 4.0f), kEighthRadius, request.most, ofEighths);
+  pick(frames, count, itself, {glm::vec3(-kHalfBrick), 4.0f, 3.0f}, request.most, ofEighths);
   for (std::size_t eighth = 0; eighth < 8; ++eighth) {
     const auto e = static_cast<int>(eighth);
     const glm::ivec3 origin = 4 * glm::ivec3(e & 1, e >> 1 & 1, e >> 2);
     const std::span<const std::uint16_t> here = ofEighths.of(eighth);
     pick(frames, here.size(), [here](std::size_t i) { return here[i]; },
-         eightFrom(glm::vec3(origin) + 0.5f - kHalfBrick, 2.0f), kEightRadius, request.most, ofEights);
+         {glm::vec3(origin) - kHalfBrick, 2.0f, 1.0f}, request.most, ofEights);
     for (std::size_t eight = 0; eight < 8; ++eight) {
       const auto s = static_cast<int>(eight);
       const glm::ivec3 first = origin + 2 * glm::ivec3(s & 1, s >> 1 & 1, s >> 2);

@@ -52,13 +52,31 @@ float SurfaceSampler::finish(glm::dvec3 point, NearestTriangle nearest) const {
   return static_cast<float>(slabs->distance(point, closest, halfThickness) / grid.voxelSize);
 }
 
-/// returns false where there are too many triangles, or none.
+/// A brick out of reach of all triangles. The first sample names one.
+void SurfaceSampler::runFar(glm::ivec3 brick, const SampleRows& wanted, float* distances,
+                            std::uint32_t* triangles) const {
+  NearestTriangle nearest;
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    if (!isWanted(wanted, i)) continue;
+    const bool isFirst = nearest.triangle == kNoTriangle;
+    const glm::dvec3 point = grid.sample(brick, sampleOfIndex(i));
+    if (isFirst) nearest = surface.nearest(point);
+    triangles[i] = nearest.triangle;
+    distances[i] = isFirst ? finish(point, nearest) : static_cast<float>(kSampledRangeVoxels);
+  }
+}
+
+/// returns false where there are too many triangles
 bool SurfaceSampler::runBlock(glm::ivec3 brick, const SampleRows& wanted, float* distances,
                               std::uint32_t* triangles) const {
   std::array<std::uint32_t, kMostBlockTriangles> near;
   const double halfEdge = 0.5 * kBrickCells * grid.voxelSize;
   const std::size_t count = surface.collect({grid.brickCenter(brick), halfEdge, capVoxels() * grid.voxelSize}, near);
-  if (count == 0 || count > near.size()) return false;
+  if (count > near.size()) return false;
+  if (count == 0) {
+    runFar(brick, wanted, distances, triangles);
+    return true;
+  }
   std::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count));
   std::array<float, kSamples> found;
   std::array<std::uint32_t, kSamples> nearest;

@@ -33,6 +33,7 @@ struct SurfaceSampler {
 private:
   double capVoxels() const;
   bool runBlock(glm::ivec3 brick, const SampleRows& wanted, float* distances, std::uint32_t* triangles) const;
+  void runFar(glm::ivec3 brick, const SampleRows& wanted, float* distances, std::uint32_t* triangles) const;
   void runWalks(glm::ivec3 brick, const SampleRows& wanted, float* distances, std::uint32_t* triangles) const;
   float finish(glm::dvec3 point, NearestTriangle nearest) const;
 };

@@ -31,10 +31,11 @@ class PathOfPoints {
 public:
   explicit PathOfPoints(const MeshDistance& surface) : surface_(surface) {}
 
-  NearestTriangle nearest(glm::dvec3 point) {
-    const NearestTriangle found =
-        surface_.nearest(point, (distance_ + glm::length(point - point_)) * kPathSlack, leaf_);
-    point_ = point, distance_ = found.distance, leaf_ = found.leaf;
+  /// limit  nothing is found where the surface is farther away
+  NearestTriangle nearest(glm::dvec3 point, double limit = HUGE_VAL) {
+    distance_ = (distance_ + glm::length(point - point_)) * kPathSlack, point_ = point;
+    const NearestTriangle found = surface_.nearest(point, std::min(distance_, limit), leaf_);
+    if (found.triangle != kNoTriangle) distance_ = found.distance, leaf_ = found.leaf;
     return found;
   }
 
@@ -43,7 +44,7 @@ private:
 
   const MeshDistance& surface_;
   glm::dvec3 point_{0.0};
-  double distance_ = std::numeric_limits<double>::infinity();
+  double distance_ = std::numeric_limits<double>::infinity(); ///< at most; of the point
   std::uint32_t leaf_ = kNoLeaf;
 };
 
@@ -61,14 +62,15 @@ public:
     if (solid_) bound.voxels = std::max(0.0, solid_->nearest(point).distance / voxelSize - request_.solidGrowthVoxels);
     if (!sheets_) return bound;
     const SheetSlabs& slabs = *request_.surfaces->slabs;
-    const NearestTriangle nearest = sheets_->nearest(point);
+    const double reach = SheetSlabs::depthOf(request_.halfThickness);
+    const NearestTriangle nearest = sheets_->nearest(point, bound.voxels * voxelSize + reach);
+    if (nearest.triangle == kNoTriangle) return bound;
     const PointOnTriangle on = closestPointOnTriangle(point, request_.soup->corners(nearest.triangle));
     const ClosestTriangle closest{nearest.distance, nearest.triangle, on};
     const double fromSlab = slabs.distance(point, closest, request_.halfThickness);
     bound.inSheet = fromSlab < 0;
     // A slab behind another sheet's triangle may reach this much nearer than the closest triangle's own.
-    const double least =
-        slabs.areAllCentred() ? std::abs(fromSlab) : closest.distance - SheetSlabs::depthOf(request_.halfThickness);
+    const double least = slabs.areAllCentred() ? std::abs(fromSlab) : closest.distance - reach;
     bound.voxels = std::min(bound.voxels, std::max(least, 0.0) / voxelSize);
     return bound;
   }
