@@ -11,8 +11,7 @@
 namespace brickfield {
 
 namespace {
-constexpr double kUncertainTurns = 0.015; // what clusters may be off by, and a half
-constexpr double kFarExcess = 0.45;       // almost no turn or almost a whole one: no hole is near
+constexpr double kFarExcess = 0.45; // almost no turn or almost a whole one: no hole is near
 } // namespace
 
 SolidWinding::SolidWinding(const TriangleSoup& soup, const MeshTopology& topology,
@@ -21,56 +20,51 @@ SolidWinding::SolidWinding(const TriangleSoup& soup, const MeshTopology& topolog
   std::vector<std::uint32_t> closedTriangles, openTriangles;
   for (const std::uint32_t triangle : triangles)
     (topology.inClosedComponent[triangle] ? closedTriangles : openTriangles).push_back(triangle);
-  const auto makePart = [&]<typename Winding>(std::optional<Part<Winding>>& part,
-                                              const std::vector<std::uint32_t>& members, auto... settings) {
-    if (members.empty()) return;
-    const bool isWhole = whole && members.size() == triangles.size();
-    auto hierarchy = isWhole ? nullptr : std::make_unique<MeshHierarchy>(soup, members);
-    Winding winding(isWhole ? *whole : *hierarchy, settings...);
-    part.emplace(Part<Winding>{std::move(hierarchy), std::move(winding)});
-  };
-  makePart(closed_, closedTriangles);
-  if (openTriangles.empty()) return;
-  rims_.emplace(soup, openTriangles);
-  makePart(open_, openTriangles, rims_->areMany() ? WindingNumber::kFarRadii : WindingNumber::kFarRadiiOfWhole);
+  const auto wholeOf = [&](const auto& members) { return members.size() == triangles.size() ? whole : nullptr; };
+  if (!closedTriangles.empty()) {
+    const MeshHierarchy* hierarchy = wholeOf(closedTriangles);
+    if (!hierarchy) {
+      closedHierarchy_ = std::make_unique<MeshHierarchy>(soup, closedTriangles);
+      hierarchy = closedHierarchy_.get();
+    }
+    closed_.emplace(*hierarchy);
+  }
+  if (!openTriangles.empty()) open_.emplace(soup, openTriangles, wholeOf(openTriangles));
 }
 
 std::size_t SolidWinding::bytes() const {
-  std::size_t sum = 0;
-  if (closed_ && closed_->hierarchy) sum += closed_->hierarchy->bytes();
-  if (open_) sum += open_->winding.bytes() + (open_->hierarchy ? open_->hierarchy->bytes() : 0);
-  if (rims_) sum += rims_->bytes();
-  return sum;
+  return (closedHierarchy_ ? closedHierarchy_->bytes() : 0) + (open_ ? open_->bytes() : 0);
 }
 
-double SolidWinding::closedTurns(glm::dvec3 point) const { return closed_ ? closed_->winding.at(point) : 0; }
+double SolidWinding::closedTurns(glm::dvec3 point) const { return closed_ ? closed_->at(point) : 0; }
 
-double SolidWinding::excess(glm::dvec3 point, double exactTurns) const {
+double SolidWinding::excess(glm::dvec3 point, bool isSignEnough) const {
   const double closed = closedTurns(point);
-  if (!open_) return std::abs(closed) >= 0.5 ? HUGE_VAL : -HUGE_VAL;
-  if (!signless_ && std::abs(closed) >= 0.5) return HUGE_VAL;
-  // But for whole turns the rims know better.
-  const double turns = static_cast<double>(open_->winding.at(point)) + (signless_ ? std::round(closed) : 0.0);
-  if (std::abs(excessOf(turns)) > (rims_->areMany() ? std::min(kUncertainTurns, exactTurns) : exactTurns))
-    return excessOf(turns);
-  const double fraction = rims_->fractionAt(point);
-  return excessOf(fraction + std::round(turns - fraction));
+  if (!open_) return closed != 0 ? HUGE_VAL : -HUGE_VAL;
+  if (!signless_ && closed != 0) return HUGE_VAL;
+  const double whole = signless_ ? closed : 0.0;
+  if (isSignEnough) {
+    const NearlyTurns nearly = open_->nearlyAt(point);
+    if (std::abs(excessOf(nearly.turns + whole)) > nearly.slack) return excessOf(nearly.turns + whole);
+  }
+  return excessOf(open_->exactlyAt(point) + whole);
 }
 
 double SolidWinding::excessBy(glm::dvec3 point, double fraction) const {
   const double closed = closedTurns(point);
-  if (!signless_ && std::abs(closed) >= 0.5) return HUGE_VAL;
-  const double turns = static_cast<double>(open_->winding.at(point)) + (signless_ ? std::round(closed) : 0.0);
+  if (!signless_ && closed != 0) return HUGE_VAL;
+  const double turns = open_->nearlyAt(point).turns + (signless_ ? closed : 0.0);
   return excessOf(fraction + std::round(turns - fraction));
 }
 
 double SolidWinding::membraneDistance(glm::dvec3 point, double limit) const {
-  if (!rims_) return HUGE_VAL;
-  const bool areMany = rims_->areMany();
-  const WindingAround here = areMany ? WindingAround{} : rims_->fractionAndSlopeAt(point);
+  if (!open_) return HUGE_VAL;
+  const Rims& rims = open_->rims();
+  const bool areMany = rims.areMany();
+  const WindingAround here = areMany ? WindingAround{} : rims.fractionAndSlopeAt(point);
   const double least = areMany ? 0.0 : std::abs(here.fraction - 0.5); // whole turns can only be added to it
   if (least > kFarExcess) return HUGE_VAL;
-  const double steepness = std::max(glm::length(areMany ? rims_->slopeAt(point) : here.slope), 1e-12);
+  const double steepness = std::max(glm::length(areMany ? rims.slopeAt(point) : here.slope), 1e-12);
   if (least > limit * steepness) return HUGE_VAL;
   const double excess = std::abs(areMany ? this->excess(point) : excessBy(point, here.fraction));
   return excess > kFarExcess || excess > limit * steepness ? HUGE_VAL : excess / steepness;
@@ -82,15 +76,16 @@ bool isFarFromMembranes(const WindingAround& around, glm::dvec3 offset, double r
 }
 
 bool SolidWinding::isSteady(glm::dvec3 center, double radius) const {
-  if (!rims_) return true;
-  if (!rims_->areMany()) {
-    const std::optional<WindingAround> around = rims_->around(center, radius);
+  if (!open_) return true;
+  const Rims& rims = open_->rims();
+  if (!rims.areMany()) {
+    const std::optional<WindingAround> around = rims.around(center, radius);
     return around && around->leastFromHalf(glm::dvec3(0.0), radius) > 0;
   }
-  const double change = rims_->mostChange(center, radius);
+  const double change = rims.mostChange(center, radius);
   if (change >= 0.5) return false;
-  const double turns = static_cast<double>(open_->winding.at(center));
-  return std::abs(turns - std::floor(turns) - 0.5) > change + kUncertainTurns;
+  const NearlyTurns nearly = open_->nearlyAt(center);
+  return std::abs(nearly.turns - std::floor(nearly.turns) - 0.5) > change + nearly.slack;
 }
 
 namespace {

@@ -7,11 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "bakers/open_winding.h"
 #include "bakers/pseudonormals.h"
 #include "bakers/ray_parity.h"
-#include "bakers/ray_winding.h"
-#include "bakers/rims.h"
-#include "bakers/winding_number.h"
 
 namespace brickfield {
 
@@ -29,11 +27,11 @@ public:
                bool signless, const MeshHierarchy* whole = nullptr);
 
   /// See InsideTest.
-  double excess(glm::dvec3 point) const { return excess(point, HUGE_VAL); }
-  bool isInside(glm::dvec3 point) const { return excess(point, kUnclearTurns) >= 0; }
+  double excess(glm::dvec3 point) const { return excess(point, false); }
+  bool isInside(glm::dvec3 point) const { return excess(point, true) >= 0; }
   bool isSteady(glm::dvec3 center, double radius) const;
   std::optional<WindingAround> around(glm::dvec3 center, double radius) const {
-    return rims_ ? rims_->around(center, radius) : std::nullopt;
+    return open_ ? open_->rims().around(center, radius) : std::nullopt;
   }
   double membraneDistance(glm::dvec3 point, double limit) const;
   /// True where the answer can change without a surface between: open triangles.
@@ -42,23 +40,16 @@ public:
   std::size_t bytes() const;
 
 private:
-  static constexpr double kUnclearTurns = 0.15; ///< what coarse clusters may be off by, and a half
-  /// Exact where it is within so many turns of zero.
-  double excess(glm::dvec3 point, double exactTurns) const;
+  double excess(glm::dvec3 point, bool isSignEnough) const;
   /// By the exact fraction of the open triangles' number.
   double excessBy(glm::dvec3 point, double fraction) const;
   /// Of closed ones, a whole number.
   double closedTurns(glm::dvec3 point) const;
   double excessOf(double turns) const { return (signless_ ? std::abs(turns) : turns) - 0.5; }
 
-  template <typename Winding>
-  struct Part {
-    std::unique_ptr<MeshHierarchy> hierarchy; ///< nothing where it is the whole one
-    Winding winding;
-  };
-  std::optional<Part<RayWinding>> closed_;
-  std::optional<Part<WindingNumber>> open_;
-  std::optional<Rims> rims_; ///< of the open ones
+  std::unique_ptr<MeshHierarchy> closedHierarchy_; ///< nothing where it is the whole one
+  std::optional<RayWinding> closed_;
+  std::optional<OpenWinding> open_;
   bool signless_;
 };
 

@@ -1,5 +1,5 @@
-// Each end of an edge is sheared by itself, and edges are looked at from the vertex of the lower number, so that all
-// users of an edge see the same bits: those that pass the ray's row beyond it count up or down by their direction.
+// Each end of an edge is sheared by itself, so that all users of an edge see the same bits: those that pass the ray's
+// row beyond it count up or down by their direction.
 #include "bakers/ray_winding.h"
 
 #include <algorithm>
@@ -39,14 +39,9 @@ int crossing(const TriangleSoup& soup, std::uint32_t triangle, const RayWinding:
   int turns = 0;
   std::array<double, 3> cross; // of corner k and the next
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t next = (k + 1) % 3;
-    const bool isFromLower = v[k] < v[next];
-    const ShearedPoint &from = isFromLower ? p[k] : p[next], &to = isFromLower ? p[next] : p[k];
-    const double fromLower = from.column * to.row - to.column * from.row;
-    cross[k] = isFromLower ? fromLower : -fromLower;
-    const bool isFromAbove = from.row > 0, isToAbove = to.row > 0;
-    if (isFromAbove == isToAbove || (fromLower > 0) != isToAbove || fromLower == 0) continue;
-    turns += isToAbove == isFromLower ? 1 : -1;
+    const ShearedPoint &from = p[k], &to = p[(k + 1) % 3];
+    cross[k] = from.column * to.row - to.column * from.row;
+    if ((from.row > 0) != (to.row > 0) && cross[k] != 0 && (cross[k] > 0) == (to.row > 0)) turns += to.row > 0 ? 1 : -1;
   }
   if (turns == 0) return 0;
   const double height = p[2].height * cross[0] + p[0].height * cross[1] + p[1].height * cross[2];
@@ -79,6 +74,10 @@ RayWinding::RayWinding(const MeshHierarchy& hierarchy) : hierarchy_(&hierarchy) 
 int RayWinding::at(glm::dvec3 point) const {
   const double slack = static_cast<double>(kRaySlack);
   if (glm::any(glm::lessThan(point, low_ - slack)) || glm::any(glm::greaterThan(point, high_ + slack))) return 0;
+  return crossings(rayFrom(point));
+}
+
+RayWinding::Ray RayWinding::rayFrom(glm::dvec3 point) const {
   Ray ray{point, 0, false};
   double least = HUGE_VAL;
   for (glm::length_t axis = 0; axis < 3; ++axis)
@@ -86,6 +85,10 @@ int RayWinding::at(glm::dvec3 point) const {
       const double way = isBackwards ? point[axis] - low_[axis] : high_[axis] - point[axis];
       if (way < least) least = way, ray.along = axis, ray.isBackwards = isBackwards;
     }
+  return ray;
+}
+
+int RayWinding::crossings(const Ray& ray) const {
 #if defined(__x86_64__)
   if (activeSimd() == SimdLevel::Avx2) return avx2::crossings(*hierarchy_, ray);
 #endif

@@ -19,8 +19,6 @@ public:
   /// proved by tests/bake/bakers/ray_winding_test.cpp
   int at(glm::dvec3 point) const;
 
-  const MeshHierarchy& hierarchy() const { return *hierarchy_; }
-
   /// Rays run a little askew, by so much of their height: modelled planes are seldom parallel to them.
   static constexpr float kColumnShear = 7.0f / 512, kRowShear = 11.0f / 512;
 
@@ -29,7 +27,18 @@ public:
     glm::dvec3 origin{0.0};
     glm::length_t along = 0; ///< axis; columns and rows are the next two
     bool isBackwards = false;
+
+    glm::dvec3 direction() const { ///< unit
+      glm::dvec3 way;
+      way[along] = isBackwards ? -1 : 1;
+      way[(along + 1) % 3] = double{kColumnShear}, way[(along + 2) % 3] = double{kRowShear};
+      return glm::normalize(way);
+    }
   };
+  Ray rayFrom(glm::dvec3 point) const;
+  /// By how much more often the ray comes out of the triangles' backs than out of their fronts. Of use for triangles
+  /// that are not closed, too.
+  int crossings(const Ray& ray) const;
 
 private:
   const MeshHierarchy* hierarchy_;

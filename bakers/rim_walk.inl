@@ -8,6 +8,14 @@ using Quad = double __attribute__((vector_size(32)));
 struct Quad3 {
   Quad x, y, z;
 };
+using QuadMask = std::int64_t __attribute__((vector_size(32)));
+
+/// The end of an edge: its distance, how much of that is along the ray, and where it is beside it.
+struct StripEnd {
+  Quad length, ahead, column, row;
+};
+
+constexpr std::size_t kUnscaled = 6; // factors: each is at most four times the product of three lengths
 
 QUAD_INLINE Quad quad(double v) { return Quad{v, v, v, v}; }
 QUAD_INLINE Quad quad(const float* lanes) {
@@ -56,7 +64,6 @@ template <bool kWithSlope>
 inline void multiplyFan(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, glm::dvec3 apex, glm::dvec3 point,
                         FanSums& sums) {
   const RimView view = viewFrom(frame, point);
-  constexpr std::size_t kUnscaled = 6; // each is at most four times the product of three lengths
   const glm::dvec3 toApex = apex - point;
   const Quad3 c{quad(toApex.x), quad(toApex.y), quad(toApex.z)};
   const Quad lengthC = quad(glm::length(toApex));
@@ -88,6 +95,52 @@ inline void multiplyFan(std::span<const Rims::EdgeQuad> edges, const Rims::Frame
     sums.real[i] = scale * real[i], sums.imaginary[i] = scale * imaginary[i];
   }
   if constexpr (kWithSlope) sums.slope = glm::dvec3(sumOf(slope.x), sumOf(slope.y), sumOf(slope.z));
+}
+
+/// Multiplies the numbers whose arguments are half the solid angles of the strips from the edges on, against a ray's
+/// direction and without end. Left and right of the ray are told as crossings are (ray_winding.cpp), to the same bits.
+inline StripSums multiplyStrips(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame,
+                                const RayWinding::Ray& ray) {
+  const RimView view = viewFrom(frame, ray.origin);
+  const auto along = [&](const Quad3& v) { return ray.along == 0 ? v.x : ray.along == 1 ? v.y : v.z; };
+  const auto column = [&](const Quad3& v) { return ray.along == 0 ? v.y : ray.along == 1 ? v.z : v.x; };
+  const auto row = [&](const Quad3& v) { return ray.along == 0 ? v.z : ray.along == 1 ? v.x : v.y; };
+  const Quad columnShear = quad(double{RayWinding::kColumnShear}), rowShear = quad(double{RayWinding::kRowShear});
+  const Quad zero = quad(0.0), one = quad(1.0);
+  const double length = glm::length(glm::dvec3(1.0, double{RayWinding::kColumnShear}, double{RayWinding::kRowShear}));
+  const Quad oneOverLength = quad(1.0 / length), towardsLeft = quad((ray.isBackwards ? 1.0 : -1.0) / length);
+  Quad real = one, imaginary = zero;
+  QuadMask turns{};
+  std::size_t count = 0;
+  const auto seen = [&](const Quad3& v) {
+    const Quad height = ray.isBackwards ? zero - along(v) : along(v);
+    const Quad c = column(v), r = row(v);
+    return StripEnd{rootOf(dotOf(v, v)), (height + columnShear * c + rowShear * r) * oneOverLength,
+                    c - columnShear * height, r - rowShear * height};
+  };
+  for (const Rims::EdgeQuad& edge : edges) {
+    const Quad3 a = from(view, edge, 0), b = from(view, edge, 1);
+    const StripEnd ofA = seen(a), ofB = seen(b);
+    Quad x = ofA.length * ofB.length + dotOf(a, b) - ofA.ahead * ofB.length - ofB.ahead * ofA.length;
+    const Quad y = towardsLeft * (ofA.column * ofB.row - ofB.column * ofA.row);
+    x = (x == zero) & (y == zero) ? one : x; // straight ahead
+    const Quad product = real * x - imaginary * y, was = imaginary;
+    imaginary = real * y + imaginary * x;
+    real = product;
+    turns -= (was >= zero) & (y >= zero) & (imaginary < zero);
+    turns += (was < zero) & (y < zero) & (imaginary >= zero);
+    if (++count % kUnscaled != 0) continue;
+    const Quad lengthSquared = real * real + imaginary * imaginary;
+    const Quad scale = one / rootOf(lengthSquared > quad(1e-200) ? lengthSquared : quad(1e-200));
+    real *= scale, imaginary *= scale;
+  }
+  StripSums sums;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double scale = 1.0 / std::max(std::sqrt(real[i] * real[i] + imaginary[i] * imaginary[i]), 1e-200);
+    sums.real[i] = scale * real[i], sums.imaginary[i] = scale * imaginary[i];
+    sums.turns[i] = static_cast<int>(turns[i]);
+  }
+  return sums;
 }
 
 /// returns false where an edge comes into the ball

@@ -24,6 +24,10 @@ struct FanSums {
   std::array<double, 4> real, imaginary; ///< lane by lane
   glm::dvec3 slope{0.0};                 ///< times 4 pi
 };
+struct StripSums {
+  std::array<double, 4> real, imaginary; ///< lane by lane
+  std::array<int, 4> turns;              ///< and whole turns
+};
 struct FieldSums {
   glm::dvec3 slope{0.0}; ///< times 4 pi
   double inverseSquares = 0, inverseCubes = 0;
@@ -49,6 +53,26 @@ constexpr double kSlackTurns = 1e-9; // over rounding
 constexpr std::size_t kBundleQuads = 16;
 constexpr double kFarRadii = 3;     // of a bundle: beyond, it counts as one edge where there are many
 constexpr double kFarLoopRadii = 4; // of a loop: beyond, it makes less than 0.03 turns
+
+/// Sum of angles, as the number whose argument it is but for whole turns, and those.
+class AngleSum {
+public:
+  /// of an angle between -pi and pi
+  void add(double real, double imaginary) {
+    const double sumReal = real_ * real - imaginary_ * imaginary, sumImaginary = real_ * imaginary + imaginary_ * real;
+    if (imaginary_ >= 0 && imaginary >= 0 && sumImaginary < 0) ++turns_;
+    if (imaginary_ < 0 && imaginary < 0 && sumImaginary >= 0) --turns_;
+    real_ = sumReal, imaginary_ = sumImaginary;
+  }
+  void add(const StripSums& sums) {
+    for (std::size_t i = 0; i < 4; ++i) add(sums.real[i], sums.imaginary[i]), turns_ += sums.turns[i];
+  }
+  double turns() const { return turns_ + std::atan2(imaginary_, real_) / (2.0 * std::numbers::pi); }
+
+private:
+  double real_ = 1, imaginary_ = 0;
+  int turns_ = 0;
+};
 
 double fractionOf(const FanSums& sums) {
   double real = 1, imaginary = 0;
@@ -143,7 +167,7 @@ void Rims::addLoop(const std::vector<glm::dvec3>& points) {
   const std::size_t last = points.size() - 1;
   glm::dvec3 low = points[0], high = points[0];
   for (const glm::dvec3 point : points) low = glm::min(low, point), high = glm::max(high, point);
-  Loop loop{begin, begin, 0.5 * (low + high), 0, 0};
+  Loop loop{begin, begin, 0.5 * (low + high), 0, 0, glm::dvec3(0.0)};
   for (std::size_t first = 0; first < last; first += 4) {
     EdgeQuad& quad = edges_.emplace_back();
     for (std::size_t i = 0; i < 5; ++i)
@@ -156,6 +180,7 @@ void Rims::addLoop(const std::vector<glm::dvec3>& points) {
     const glm::dvec3 from = points[i] - loop.center, to = points[i + 1] - loop.center;
     loop.radius = std::max(loop.radius, glm::length(from));
     loop.area += 0.5 * glm::length(glm::cross(from, to));
+    loop.areaVector += 0.5 * glm::cross(from, to);
   }
   loop.end = static_cast<std::uint32_t>(edges_.size());
   if (!areMany()) loops_.push_back(loop);
@@ -205,6 +230,49 @@ bool addFieldOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame,
 }
 
 } // namespace
+
+namespace {
+
+StripSums stripsOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, const RayWinding::Ray& ray) {
+#if defined(__x86_64__)
+  if (activeSimd() == SimdLevel::Avx2) return avx2::multiplyStrips(edges, frame, ray);
+#endif
+  return portable::multiplyStrips(edges, frame, ray);
+}
+
+/// Whether the ball may be on the ray.
+bool isOnRay(const RayWinding::Ray& ray, glm::dvec3 toCenter, double radius) {
+  const glm::dvec3 direction = ray.direction();
+  const double along = glm::dot(toCenter, direction), across = glm::dot(toCenter, toCenter) - along * along;
+  return along > -radius && across < radius * radius;
+}
+
+} // namespace
+
+double Rims::exactTurnsAlong(const RayWinding::Ray& ray) const {
+  AngleSum sum;
+  sum.add(stripsOf(edges_, frame_, ray));
+  return sum.turns();
+}
+
+/// Off the ray no part of a far loop's strips is between its surface and the point: they look as that does. Pieces of
+/// it are dipoles up to a radius from where they are counted, and those change by up to 2 / r^3 a way.
+NearlyTurns Rims::turnsAlong(const RayWinding::Ray& ray) const {
+  NearlyTurns nearly{0, kSlackTurns};
+  AngleSum near;
+  for (const Loop& loop : loops_) {
+    const glm::dvec3 toCenter = loop.center - ray.origin;
+    const double distance = glm::length(toCenter), away = distance - loop.radius;
+    if (away > (kFarLoopRadii - 1) * loop.radius && !isOnRay(ray, toCenter, loop.radius)) {
+      nearly.turns += glm::dot(loop.areaVector, toCenter) / (kFourPi * distance * distance * distance);
+      nearly.slack += 2.0 * loop.area * loop.radius / (kFourPi * away * away * away);
+    } else {
+      near.add(stripsOf(std::span(edges_).subspan(loop.begin, loop.end - loop.begin), frame_, ray));
+    }
+  }
+  nearly.turns += near.turns();
+  return nearly;
+}
 
 double Rims::fractionAt(glm::dvec3 point) const { return fractionOf(fanOf<false>(edges_, frame_, apex_, point)); }
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "bakers/triangle_soup.h"
+#include "bakers/ray_winding.h"
 
 namespace brickfield {
 
@@ -32,6 +32,11 @@ struct WindingAround {
   double steepest(double distance) const { return glm::length(slope) + bend * distance + slopeSlack; }
 };
 
+/// A number of turns that is right to the slack.
+struct NearlyTurns {
+  double turns = 0, slack = 0;
+};
+
 class Rims {
 public:
   /// triangles of the soup; no rims where all their edges are balanced
@@ -49,6 +54,15 @@ public:
   /// cost      4 ns an edge
   /// proved by tests/bake/bakers/rims_test.cpp
   double fractionAt(glm::dvec3 point) const;
+  /// What the rims, drawn out backwards along a ray without end, add to the ray's crossings with the triangles:
+  /// together the winding number of its origin. Loops that are far away and off the ray count as dipoles; with few
+  /// edges.
+  ///
+  /// cost      9 ns an edge of loops that are near, 5 ns a loop that is far
+  /// proved by tests/bake/bakers/open_winding_test.cpp
+  NearlyTurns turnsAlong(const RayWinding::Ray& ray) const;
+  /// By each edge. cost 5 ns an edge
+  double exactTurnsAlong(const RayWinding::Ray& ray) const;
   /// Slope of the winding number, in turns per unit of soup space; with many edges its length to a tenth.
   glm::dvec3 slopeAt(glm::dvec3 point) const { return fieldAt(point, 0.0).slope; }
   /// Both at once, without a bend. cost 5 ns an edge
@@ -93,7 +107,8 @@ private:
     std::uint32_t begin, end; ///< of edges_
     glm::dvec3 center;
     double radius;
-    double area; ///< of a surface within the ball that the loop bounds
+    double area;           ///< of a surface within the ball that the loop bounds
+    glm::dvec3 areaVector; ///< of any surface that it bounds
   };
   struct Field {
     glm::dvec3 slope{0.0};     ///< turns per unit

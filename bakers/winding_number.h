@@ -22,14 +22,12 @@ class WindingNumber {
 public:
   /// Beyond so many radii of the ball around its box a cluster counts as far.
   static constexpr float kFarRadii = 2.0f; ///< what Barill et al. advise for three terms
-  /// Where the number is known but for whole turns: an error of a tenth leaves those clear.
-  static constexpr float kFarRadiiOfWhole = 1.25f;
 
   /// hierarchy must outlive this
   explicit WindingNumber(const MeshHierarchy& hierarchy, float farRadii = kFarRadii);
 
   /// point    soup space
-  /// returns  within 0.01 of the exact number; within 0.1 with kFarRadiiOfWhole
+  /// returns  within 0.01 of the exact number
   /// proved by tests/bake/bakers/winding_number_test.cpp
   float at(glm::dvec3 point) const;
   /// By all triangles, to 1e-5. cost 2 ns a triangle
