@@ -21,29 +21,10 @@ constexpr int kMostRounds = 64;
 // a pyramid without its base 0.57, a plane 1/2.
 constexpr double kClosedTwoSided = 0.92;
 constexpr double kClosedOneSided = 0.70;
-constexpr std::size_t kEnoughTriangles =
-    2048; // a mean over as many is off by 0.04 at most: four times 0.5 / sqrt(2048)
-constexpr double kClearlyOff = 0.1;
+constexpr std::size_t kEnoughTriangles = 2048;
+// A mean over n places of values from 0 to 1 is off by 0.5 / sqrt(n) or less in two of three cases.
+constexpr double kClearDeviations = 4 * 0.5;
 constexpr double kLeastFlapShare = 0.02; // of a component's area; less is the rim of a spout or of a hole
-
-/// What the places of a triangle saw.
-struct TriangleLook {
-  double closure = 0; ///< mean over the places: how far the side that is more inside is wrapped, 0 to 1
-  bool isOpen = true; ///< open space on both sides at most places
-};
-
-/// Calls `visit` with the centroids of the n^2 equal parts of a triangle.
-template <typename Visit>
-void forEachPlace(const std::array<glm::dvec3, 3>& corners, int partsPerSide, Visit visit) {
-  const glm::dvec3 stepB = (corners[1] - corners[0]) / static_cast<double>(partsPerSide);
-  const glm::dvec3 stepC = (corners[2] - corners[0]) / static_cast<double>(partsPerSide);
-  for (int j = 0; j < partsPerSide; ++j)
-    for (int i = 0; i + j < partsPerSide; ++i) {
-      const glm::dvec3 corner = corners[0] + static_cast<double>(i) * stepB + static_cast<double>(j) * stepC;
-      visit(corner + (stepB + stepC) / 3.0);
-      if (i + j + 1 < partsPerSide) visit(corner + (stepB + stepC) * (2.0 / 3.0));
-    }
-}
 
 /// Where a triangle is looked at.
 class TrianglePlaces {
@@ -58,15 +39,22 @@ public:
   }
   std::size_t count() const { return static_cast<std::size_t>(partsPerSide_ * partsPerSide_); }
 
-  /// Calls visit(number, point behind, point before).
-  template <typename Visit>
-  void forEach(Visit visit) const {
-    std::size_t number = 0;
-    forEachPlace(corners_, partsPerSide_,
-                 [&](glm::dvec3 place) { visit(number++, place - 2.0 * toFront_, place + toFront_); });
-  }
+  /// Where a place's back and its front are looked at.
+  glm::dvec3 behind(std::size_t number) const { return place(number) - 2.0 * toFront_; }
+  glm::dvec3 before(std::size_t number) const { return place(number) + toFront_; }
 
 private:
+  /// The centroid of one of the n^2 equal parts, row by row: of n upright ones and, between them, n - 1 turned over; of
+  /// one less each in the next row.
+  glm::dvec3 place(std::size_t number) const {
+    const glm::dvec3 stepB = (corners_[1] - corners_[0]) / static_cast<double>(partsPerSide_);
+    const glm::dvec3 stepC = (corners_[2] - corners_[0]) / static_cast<double>(partsPerSide_);
+    int row = 0, left = static_cast<int>(number);
+    for (; left >= 2 * (partsPerSide_ - row) - 1; ++row) left -= 2 * (partsPerSide_ - row) - 1;
+    const glm::dvec3 corner = corners_[0] + static_cast<double>(left / 2) * stepB + static_cast<double>(row) * stepC;
+    return corner + (stepB + stepC) * (left % 2 == 0 ? 1.0 / 3 : 2.0 / 3);
+  }
+
   std::array<glm::dvec3, 3> corners_;
   int partsPerSide_ = 1;
   glm::dvec3 toFront_;
@@ -76,74 +64,101 @@ private:
 /// date by those of the triangles that were taken out since.
 class SheetJudge {
 public:
+  /// looked  triangles that will be looked at, the open ones among them
   SheetJudge(const TriangleSoup& soup, const SheetRequest& request, SolidWinding closed,
-             const std::vector<std::uint32_t>& open)
-      : soup_(soup),
-        request_(request),
-        closed_(std::move(closed)),
-        firstPlace_(soup.triangles.size()),
-        partsSeen_(soup.triangles.size(), 0) {
+             const std::vector<std::uint32_t>& open, const std::vector<std::uint32_t>& looked)
+      : soup_(soup), request_(request), closed_(std::move(closed)), firstPlace_(soup.triangles.size()) {
     std::uint32_t placeCount = 0;
-    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+    for (const std::uint32_t t : looked) {
       firstPlace_[t] = placeCount;
       placeCount += static_cast<std::uint32_t>(TrianglePlaces(soup, request, t).count());
     }
-    windings_.assign(placeCount, glm::vec2(0.0f));
-    if (!open.empty()) parts_.push_back(std::make_unique<Part>(soup, open));
+    sides_.resize(std::size_t{2} * placeCount);
+    if (!open.empty()) parts_.emplace_back(soup, open);
   }
 
   /// Takes triangles out of the open ones.
-  void remove(const std::vector<std::uint32_t>& triangles) {
-    parts_.push_back(std::make_unique<Part>(soup_, triangles));
+  void remove(const std::vector<std::uint32_t>& triangles) { parts_.emplace_back(soup_, triangles); }
+
+  /// How far each triangle's side that is more inside is wrapped, 0 to 1: at one place, or in the mean of all.
+  std::vector<double> closures(const std::vector<std::uint32_t>& triangles, bool isOneEnough) {
+    std::vector<double> result(triangles.size());
+    tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) {
+      const std::uint32_t t = triangles[i];
+      const TrianglePlaces places(soup_, request_, t);
+      if (isOneEnough) {
+        result[i] = closureAt(places, t, t * kStride % places.count());
+        return;
+      }
+      for (std::size_t number = 0; number < places.count(); ++number) result[i] += closureAt(places, t, number);
+      result[i] /= static_cast<double>(places.count());
+    });
+    return result;
   }
 
-  std::vector<TriangleLook> look(const std::vector<std::uint32_t>& triangles) {
-    std::vector<TriangleLook> looks(triangles.size());
-    tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) { looks[i] = lookAt(triangles[i]); });
-    return looks;
+  /// Which triangles have open space on both sides at most of their places.
+  std::vector<std::uint8_t> areOpen(const std::vector<std::uint32_t>& triangles) {
+    std::vector<std::uint8_t> result(triangles.size());
+    tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) { result[i] = isOpen(triangles[i]); });
+    return result;
   }
 
   SolidWinding takeClosed() { return std::move(closed_); } ///< the last that is asked of it
 
 private:
-  struct Part {
-    MeshHierarchy hierarchy;
-    WindingNumber winding;
-    Part(const TriangleSoup& soup, const std::vector<std::uint32_t>& triangles)
-        : hierarchy(soup, triangles), winding(hierarchy) {}
+  static constexpr std::size_t kStride = 7; // shares no factor with 4, 9 and 16 places
+
+  /// The open triangles' winding number beside a place.
+  struct Side {
+    float turns = 0;
+    std::uint32_t partsSeen = 0; ///< how many parts were counted
   };
 
-  /// Winding number of the parts from `first` on: all open triangles count, later parts were taken out of them.
-  float windingOf(std::size_t first, glm::dvec3 point) const {
-    float sum = 0;
-    for (std::size_t i = first; i < parts_.size(); ++i)
-      sum += i == 0 ? parts_[i]->winding.at(point) : -parts_[i]->winding.at(point);
-    return sum;
+  /// All open triangles count, later parts were taken out of them.
+  float turnsAt(Side& side, glm::dvec3 point) const {
+    for (; side.partsSeen < parts_.size(); ++side.partsSeen) {
+      const auto turns = static_cast<float>(parts_[side.partsSeen].nearlyAt(point).turns);
+      side.turns += side.partsSeen == 0 ? turns : -turns;
+    }
+    return side.turns;
+  }
+  Side& sideOf(std::uint32_t triangle, std::size_t number, bool isBefore) {
+    return sides_[2 * (firstPlace_[triangle] + number) + isBefore];
   }
 
-  TriangleLook lookAt(std::uint32_t triangle) {
+  double closureAt(const TrianglePlaces& places, std::uint32_t triangle, std::size_t number) {
+    const glm::dvec3 behind = places.behind(number), before = places.before(number);
+    const float ofBehind = turnsAt(sideOf(triangle, number, false), behind);
+    if (ofBehind >= 1.0f) return 1.0;
+    const float most = std::max(ofBehind, turnsAt(sideOf(triangle, number, true), before));
+    if (most < 1.0f && isInClosed(behind, before)) return 1.0;
+    return std::clamp(static_cast<double>(most), 0.0, 1.0);
+  }
+  bool isOpenAt(const TrianglePlaces& places, std::uint32_t triangle, std::size_t number) {
+    const glm::dvec3 behind = places.behind(number), before = places.before(number);
+    return turnsAt(sideOf(triangle, number, false), behind) < 0.5f &&
+           turnsAt(sideOf(triangle, number, true), before) < 0.5f && !isInClosed(behind, before);
+  }
+  bool isInClosed(glm::dvec3 behind, glm::dvec3 before) const {
+    return closed_.isInside(behind) || closed_.isInside(before);
+  }
+  bool isOpen(std::uint32_t triangle) {
     const TrianglePlaces places(soup_, request_, triangle);
-    double closure = 0;
-    std::size_t openPlaces = 0;
-    places.forEach([&](std::size_t number, glm::dvec3 behind, glm::dvec3 before) {
-      glm::vec2& winding = windings_[firstPlace_[triangle] + number];
-      winding += glm::vec2(windingOf(partsSeen_[triangle], behind), windingOf(partsSeen_[triangle], before));
-      float most = std::max(winding.x, winding.y);
-      if (most < 1.0f && (closed_.excess(behind) >= 0 || closed_.excess(before) >= 0)) most = 1.0f;
-      closure += std::clamp(static_cast<double>(most), 0.0, 1.0);
-      openPlaces += most < 0.5f;
-    });
-    partsSeen_[triangle] = static_cast<std::uint32_t>(parts_.size());
-    return {closure / static_cast<double>(places.count()), 2 * openPlaces > places.count()};
+    const std::size_t count = places.count();
+    std::size_t open = 0;
+    for (std::size_t number = 0; number < count; ++number) {
+      open += isOpenAt(places, triangle, number);
+      if (2 * open > count || 2 * (open + count - number - 1) <= count) break;
+    }
+    return 2 * open > count;
   }
 
   const TriangleSoup& soup_;
   const SheetRequest& request_;
   SolidWinding closed_;
-  std::vector<std::unique_ptr<Part>> parts_; ///< all open triangles, then what was taken out
-  std::vector<std::uint32_t> firstPlace_;    ///< a triangle
-  std::vector<std::uint32_t> partsSeen_;     ///< a triangle: parts that its places have counted
-  std::vector<glm::vec2> windings_;          ///< a place: of the open triangles, behind and before
+  std::vector<OpenWinding> parts_;        ///< all open triangles, then what was taken out
+  std::vector<std::uint32_t> firstPlace_; ///< a triangle
+  std::vector<Side> sides_;               ///< a place: behind, before
 };
 
 /// Sorts out the open triangles.
@@ -158,34 +173,43 @@ public:
     for (int round = 0; round < kMostRounds; ++round) {
       add(open);
       std::vector<std::uint32_t> left, found;
-      for (const std::uint32_t t : open) (isSolid(topology_.componentOf[t]) ? left : found).push_back(t);
+      for (const std::uint32_t t : open) (componentOf(t).isSolid() ? left : found).push_back(t);
       open = std::move(left);
       if (found.empty()) break;
       judge_.remove(found);
       result.sheets.insert(result.sheets.end(), found.begin(), found.end());
     }
-    for (std::size_t i = 0; i < open.size(); ++i) {
-      const Component& component = components_[topology_.componentOf[open[i]]];
-      const bool isFlap =
-          looks_[i].isOpen && component.isTwoSided() && component.flapArea > kLeastFlapShare * component.area;
-      (isFlap ? result.sheets : result.solid).push_back(open[i]);
+    std::vector<std::uint32_t> mayBeFlaps;
+    for (const std::uint32_t t : open) (componentOf(t).isTwoSided() ? mayBeFlaps : result.solid).push_back(t);
+    const std::vector<std::uint8_t> areOpen = judge_.areOpen(mayBeFlaps);
+    for (std::size_t i = 0; i < mayBeFlaps.size(); ++i)
+      componentOf(mayBeFlaps[i]).flapArea += areOpen[i] ? soup_.areaOf(mayBeFlaps[i]) : 0.0;
+    for (std::size_t i = 0; i < mayBeFlaps.size(); ++i) {
+      const Component& component = componentOf(mayBeFlaps[i]);
+      const bool isFlap = areOpen[i] && component.flapArea > kLeastFlapShare * component.area;
+      (isFlap ? result.sheets : result.solid).push_back(mayBeFlaps[i]);
     }
   }
 
 private:
   struct Component {
     std::size_t triangleCount = 0, looked = 0;
-    double area = 0, twoSidedArea = 0;
-    double lookedArea = 0, closedArea = 0, flapArea = 0; ///< of the triangles that were looked at
+    double area = 0, twoSidedArea = 0, flapArea = 0;
+    double lookedArea = 0, lookedSquares = 0, closedArea = 0; ///< of the triangles that were looked at
     bool isTwoSided() const { return twoSidedArea > 0.5 * area; }
     double leastClosure() const { return isTwoSided() ? kClosedTwoSided : kClosedOneSided; }
-    /// Of large components each n-th triangle tells enough, but for flaps, which those of one side do not have.
-    std::size_t stride() const { return isTwoSided() ? 1 : std::max<std::size_t>(1, triangleCount / kEnoughTriangles); }
-    bool isClear() const { return stride() == 1 || std::abs(closedArea / lookedArea - leastClosure()) > kClearlyOff; }
+    bool isSolid() const { return closedArea >= leastClosure() * lookedArea; }
+    /// Of large components each n-th triangle is looked at first.
+    std::size_t stride() const { return std::max<std::size_t>(1, triangleCount / kEnoughTriangles); }
+    /// Whether what was seen is so far from the threshold that a look at more would not matter.
+    bool isClear() const {
+      const double off = std::abs(closedArea / lookedArea - leastClosure());
+      return off >
+             kClearDeviations * std::sqrt(lookedSquares) / lookedArea; // as of lookedArea^2 / lookedSquares places
+    }
   };
 
   void add(const std::vector<std::uint32_t>& open) {
-    looks_.assign(open.size(), {});
     for (const std::uint32_t t : open) componentOf(t) = {};
     for (const std::uint32_t t : open) {
       Component& component = componentOf(t);
@@ -194,40 +218,35 @@ private:
       component.twoSidedArea += request_.isDoubleSided[t] ? soup_.areaOf(t) : 0.0;
     }
     std::vector<std::uint32_t> first, rest;
-    for (std::uint32_t i = 0; i < open.size(); ++i) {
-      Component& component = componentOf(open[i]);
-      (component.looked++ % component.stride() == 0 ? first : rest).push_back(i);
+    for (const std::uint32_t t : open) {
+      Component& component = componentOf(t);
+      (component.looked++ % component.stride() == 0 ? first : rest).push_back(t);
     }
-    lookAt(open, first);
-    std::erase_if(rest, [&](std::uint32_t i) { return componentOf(open[i]).isClear(); });
-    lookAt(open, rest);
+    const auto isClear = [&](std::uint32_t t) { return componentOf(t).isClear(); };
+    lookAt(first, true);
+    std::erase_if(first, isClear);
+    for (const std::uint32_t t : first)
+      componentOf(t).lookedArea = componentOf(t).lookedSquares = componentOf(t).closedArea = 0;
+    lookAt(first, false);
+    std::erase_if(rest, isClear);
+    lookAt(rest, false);
   }
-  /// numbers  into open
-  void lookAt(const std::vector<std::uint32_t>& open, const std::vector<std::uint32_t>& numbers) {
-    std::vector<std::uint32_t> triangles;
-    for (const std::uint32_t i : numbers) triangles.push_back(open[i]);
-    const std::vector<TriangleLook> looks = judge_.look(triangles);
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      looks_[numbers[i]] = looks[i];
+  void lookAt(const std::vector<std::uint32_t>& triangles, bool isOneEnough) {
+    const std::vector<double> closures = judge_.closures(triangles, isOneEnough);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
       Component& component = componentOf(triangles[i]);
       const double area = soup_.areaOf(triangles[i]);
-      component.lookedArea += area;
-      component.closedArea += area * looks[i].closure;
-      component.flapArea += looks[i].isOpen ? area : 0.0;
+      component.lookedArea += area, component.lookedSquares += area * area;
+      component.closedArea += area * closures[i];
     }
   }
   Component& componentOf(std::uint32_t triangle) { return components_[topology_.componentOf[triangle]]; }
-  bool isSolid(std::uint32_t number) const {
-    const Component& component = components_[number];
-    return component.closedArea >= component.leastClosure() * component.lookedArea;
-  }
 
   const TriangleSoup& soup_;
   const MeshTopology& topology_;
   const SheetRequest& request_;
   SheetJudge& judge_;
   std::vector<Component> components_; ///< by MeshTopology::componentOf
-  std::vector<TriangleLook> looks_;   ///< of the last open triangles
 };
 
 } // namespace
@@ -252,11 +271,13 @@ SolidsAndSheets findSheets(const TriangleSoup& soup, const MeshTopology& topolog
   if (!result.solid.empty()) closedHierarchy = std::make_unique<MeshHierarchy>(soup, result.solid);
   const std::size_t closedCount = result.solid.size();
   SolidWinding closed(soup, topology, result.solid, false, closedHierarchy.get());
-  SheetJudge judge(soup, request, std::move(closed), open);
+  std::vector<std::uint32_t> looked = open;
+  looked.insert(looked.end(), flatPairs.begin(), flatPairs.end());
+  SheetJudge judge(soup, request, std::move(closed), open, looked);
   ComponentSorter(soup, topology, request, judge).sort(std::move(open), result);
-  const std::vector<TriangleLook> ofPairs = judge.look(flatPairs);
+  const std::vector<std::uint8_t> areOpen = judge.areOpen(flatPairs);
   for (std::size_t i = 0; i < flatPairs.size(); ++i)
-    if (ofPairs[i].isOpen) result.sheets.push_back(flatPairs[i]);
+    if (areOpen[i]) result.sheets.push_back(flatPairs[i]);
   if (result.solid.size() == closedCount && closedHierarchy) {
     result.solidHierarchy = std::move(closedHierarchy);
     result.solidWinding = judge.takeClosed();
