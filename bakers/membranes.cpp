@@ -43,8 +43,9 @@ struct MembraneBrick {
 /// Draws a brick's distances in to the membranes that come near it.
 class MembraneSearch {
 public:
-  MembraneSearch(const SamplingRequest& request, const InsideTest& test, glm::ivec3 brick)
-      : request_(request), test_(test), brick_(brick) {
+  /// distances  512 to triangles, in voxels: what is not nearer is of no interest; nothing: all is
+  MembraneSearch(const SamplingRequest& request, const InsideTest& test, glm::ivec3 brick, const float* distances)
+      : request_(request), test_(test), brick_(brick), distances_(distances) {
     voxels_.fill(std::numeric_limits<float>::infinity());
   }
 
@@ -55,24 +56,38 @@ public:
   }
 
 private:
-  static constexpr int kWholeCube = 4; // samples of smaller cubes are looked at one by one
+  static constexpr int kWholeCube = 2; // its samples are looked at one by one
 
   void look(const SampleCube& cube) {
     const SampleGrid& grid = request_.grid;
     const double radius = cube.radiusVoxels() * grid.voxelSize;
     const glm::dvec3 center = grid.origin + grid.voxelSize * (glm::dvec3(kBrickCells * brick_) + cube.centerVoxels());
     const std::optional<WindingAround> around = test_.around(center, radius);
-    if (around && isFarFromMembranes(*around, glm::dvec3(0.0), radius, limit())) return;
+    const double farthest = limitOf(cube);
+    if (farthest <= 0) return;
+    if (around && isFarFromMembranes(*around, glm::dvec3(0.0), radius, farthest)) return;
     if (!request_.isComplete && cube.side > 2 && test_.isSteady(center, radius + limit())) return;
-    if (cube.side > (around ? kWholeCube : 2)) {
+    if (cube.side > kWholeCube) {
       for (int i = 0; i < 8; ++i) look(cube.eighth(i));
       return;
     }
     cube.forEach([&](glm::ivec3 sample) {
       const glm::dvec3 point = grid.sample(brick_, sample);
-      if (!around || !isFarFromMembranes(*around, point - center, 0.0, limit()))
-        voxels_[sampleIndex(sample)] = static_cast<float>(test_.membraneDistance(point, limit()) / grid.voxelSize);
+      const double limit = limitOf(sampleIndex(sample));
+      if (limit > 0 && (!around || !isFarFromMembranes(*around, point - center, 0.0, limit)))
+        voxels_[sampleIndex(sample)] = static_cast<float>(test_.membraneDistance(point, limit) / grid.voxelSize);
     });
+  }
+  /// Up to where membranes matter to a sample, in soup space; 0: none does.
+  double limitOf(std::size_t sample) const {
+    if (!distances_) return limit();
+    if (distances_[sample] < kTriangleVoxels) return 0;
+    return std::min(limit(), static_cast<double>(distances_[sample]) * request_.grid.voxelSize);
+  }
+  double limitOf(const SampleCube& cube) const {
+    double most = 0;
+    cube.forEach([&](glm::ivec3 sample) { most = std::max(most, limitOf(sampleIndex(sample))); });
+    return most;
   }
   /// Soup space.
   double limit() const { return request_.isComplete ? HUGE_VAL : kReachVoxels * request_.grid.voxelSize; }
@@ -80,6 +95,7 @@ private:
   const SamplingRequest& request_;
   const InsideTest& test_;
   glm::ivec3 brick_;
+  const float* distances_;
   std::array<float, kSamples> voxels_;
 };
 
@@ -92,7 +108,8 @@ public:
   /// mustStore  whether it becomes a brick although no membrane should be near
   MembraneBrick measure(std::uint32_t cell, bool mustStore) const {
     const glm::ivec3 brick = level_.grid.brickOfCell(cell);
-    MembraneSearch search(request_, test_, brick);
+    const std::uint32_t slot = level_.brickOfCell[cell];
+    MembraneSearch search(request_, test_, brick, slot == kNoBrick ? nullptr : &level_.solidDistances[slot * kSamples]);
     const std::array<float, kSamples>& toMembrane = search.run();
     MembraneBrick result;
     result.least = static_cast<float>(kReachVoxels);

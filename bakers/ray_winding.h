@@ -29,10 +29,12 @@ public:
     bool isBackwards = false;
 
     glm::dvec3 direction() const { ///< unit
+      static const double oneOverLength = 1.0 / glm::length(glm::dvec3(1.0, double{kColumnShear}, double{kRowShear}));
       glm::dvec3 way;
-      way[along] = isBackwards ? -1 : 1;
-      way[(along + 1) % 3] = double{kColumnShear}, way[(along + 2) % 3] = double{kRowShear};
-      return glm::normalize(way);
+      way[along] = isBackwards ? -oneOverLength : oneOverLength;
+      way[(along + 1) % 3] = double{kColumnShear} * oneOverLength;
+      way[(along + 2) % 3] = double{kRowShear} * oneOverLength;
+      return way;
     }
   };
   Ray rayFrom(glm::dvec3 point) const;

@@ -240,9 +240,8 @@ StripSums stripsOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& fra
   return portable::multiplyStrips(edges, frame, ray);
 }
 
-/// Whether the ball may be on the ray.
-bool isOnRay(const RayWinding::Ray& ray, glm::dvec3 toCenter, double radius) {
-  const glm::dvec3 direction = ray.direction();
+/// Whether a ball may be on a ray.
+bool isOnRay(glm::dvec3 direction, glm::dvec3 toCenter, double radius) {
   const double along = glm::dot(toCenter, direction), across = glm::dot(toCenter, toCenter) - along * along;
   return along > -radius && across < radius * radius;
 }
@@ -260,12 +259,15 @@ double Rims::exactTurnsAlong(const RayWinding::Ray& ray) const {
 NearlyTurns Rims::turnsAlong(const RayWinding::Ray& ray) const {
   NearlyTurns nearly{0, kSlackTurns};
   AngleSum near;
+  const glm::dvec3 direction = ray.direction();
   for (const Loop& loop : loops_) {
     const glm::dvec3 toCenter = loop.center - ray.origin;
     const double distance = glm::length(toCenter), away = distance - loop.radius;
-    if (away > (kFarLoopRadii - 1) * loop.radius && !isOnRay(ray, toCenter, loop.radius)) {
-      nearly.turns += glm::dot(loop.areaVector, toCenter) / (kFourPi * distance * distance * distance);
-      nearly.slack += 2.0 * loop.area * loop.radius / (kFourPi * away * away * away);
+    if (away > (kFarLoopRadii - 1) * loop.radius && !isOnRay(direction, toCenter, loop.radius)) {
+      const double oneOverAway = 1.0 / away, oneOverDistance = 1.0 / distance;
+      nearly.turns +=
+          glm::dot(loop.areaVector, toCenter) / kFourPi * oneOverDistance * oneOverDistance * oneOverDistance;
+      nearly.slack += 2.0 * loop.area * loop.radius / kFourPi * oneOverAway * oneOverAway * oneOverAway;
     } else {
       near.add(stripsOf(std::span(edges_).subspan(loop.begin, loop.end - loop.begin), frame_, ray));
     }

@@ -19,7 +19,9 @@ class CellAsker {
 public:
   CellAsker(const SampleGrid& grid, glm::ivec3 cell, const InsideTest& test, const float* distances)
       : grid_(grid), cell_(cell), test_(test), distances_(distances) {
-    if (distances) links_.emplace(distances);
+    if (!distances) return;
+    links_.emplace(distances);
+    offSurface_ = samplesOffSurface(distances);
   }
 
   SampleSigns run() {
@@ -83,8 +85,7 @@ private:
         if (left[z] != 0) return answer(64 * z + static_cast<std::size_t>(std::countr_zero(left[z])), left);
       return;
     }
-    const SampleMask off = samplesOffSurface(distances_);
-    for (std::size_t z = 0; z < left.size(); ++z) left[z] &= off[z];
+    for (std::size_t z = 0; z < left.size(); ++z) left[z] &= offSurface_[z];
     for (std::size_t z = 0; z < left.size(); ++z)
       while (left[z] != 0) {
         const SampleMask group = links_->flood(64 * z + static_cast<std::size_t>(std::countr_zero(left[z])), left);
@@ -105,6 +106,7 @@ private:
   const InsideTest& test_;
   const float* distances_;
   std::optional<SampleLinks> links_;
+  SampleMask offSurface_{};
   SampleSigns signs_{};
 };
 
