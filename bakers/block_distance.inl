@@ -23,7 +23,7 @@ WIDE_INLINE Vector4d crossOf(const Vector4d& a, const Vector4d& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 WIDE_INLINE Double4 rootOf(Double4 v) {
-#if defined(__AVX__)
+#if defined(BRICKFIELD_AVX)
   return __builtin_ia32_sqrtpd256(v);
 #else
   for (std::size_t i = 0; i < 4; ++i) v[i] = std::sqrt(v[i]);

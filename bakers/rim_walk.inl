@@ -45,7 +45,7 @@ QUAD_INLINE Quad3 crossOf(const Quad3& a, const Quad3& b) {
 }
 QUAD_INLINE Quad3 times(Quad s, const Quad3& a) { return {s * a.x, s * a.y, s * a.z}; }
 QUAD_INLINE Quad rootOf(Quad v) {
-#if defined(__AVX__)
+#if defined(BRICKFIELD_AVX)
   return __builtin_ia32_sqrtpd256(v);
 #else
   return Quad{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};

@@ -39,9 +39,11 @@ namespace portable {
 #if defined(__x86_64__)
 #pragma GCC push_options
 #pragma GCC target("avx2")
+#define BRICKFIELD_AVX // g++ 12 lets the pragma define no macro
 namespace avx2 {
 #include "bakers/rim_walk.inl"
 }
+#undef BRICKFIELD_AVX
 #pragma GCC pop_options
 #endif
 

@@ -13,14 +13,14 @@ WIDE_INLINE Wide wide(const Float8& lanes) {
   return result;
 }
 WIDE_INLINE Wide least(Wide a, Wide b) {
-#if defined(__AVX__)
+#if defined(BRICKFIELD_AVX)
   return __builtin_ia32_minps256(a, b); // the same as below, which the compiler does not always see
 #else
   return a < b ? a : b;
 #endif
 }
 WIDE_INLINE Wide most(Wide a, Wide b) {
-#if defined(__AVX__)
+#if defined(BRICKFIELD_AVX)
   return __builtin_ia32_maxps256(a, b);
 #else
   return a > b ? a : b;
@@ -39,7 +39,7 @@ WIDE_INLINE Wide3 crossOf(const Wide3& a, const Wide3& b) {
 }
 
 WIDE_INLINE Wide rootOf(Wide v) {
-#if defined(__AVX__)
+#if defined(BRICKFIELD_AVX)
   return __builtin_ia32_sqrtps256(v);
 #else
   float lanes[8];
@@ -52,7 +52,7 @@ WIDE_INLINE Wide rootOf(Wide v) {
 
 /// A bit a lane that is set.
 WIDE_INLINE unsigned bitsOf(WideMask mask) {
-#if defined(__AVX__)
+#if defined(BRICKFIELD_AVX)
   return static_cast<unsigned>(__builtin_ia32_movmskps256(reinterpret_cast<Wide>(mask)));
 #elif defined(__SSE__)
   Float4 halves[2];
