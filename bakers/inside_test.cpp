@@ -38,13 +38,14 @@ std::size_t SolidWinding::bytes() const {
 
 double SolidWinding::closedTurns(glm::dvec3 point) const { return closed_ ? closed_->at(point) : 0; }
 
-double SolidWinding::excess(glm::dvec3 point, bool isSignEnough) const {
+double SolidWinding::excess(glm::dvec3 point, bool isSignEnough, const NearRims* near) const {
   const double closed = closedTurns(point);
   if (!open_) return closed != 0 ? HUGE_VAL : -HUGE_VAL;
   if (!signless_ && closed != 0) return HUGE_VAL;
   const double whole = signless_ ? closed : 0.0;
   if (isSignEnough) {
-    const NearlyTurns nearly = open_->nearlyAt(point);
+    NearlyTurns nearly = near ? open_->nearlyAt(point, *near) : NearlyTurns{0, HUGE_VAL};
+    if (std::abs(excessOf(nearly.turns + whole)) <= nearly.slack) nearly = open_->nearlyAt(point);
     if (std::abs(excessOf(nearly.turns + whole)) > nearly.slack) return excessOf(nearly.turns + whole);
   }
   return excessOf(open_->exactlyAt(point) + whole);
@@ -57,8 +58,12 @@ double SolidWinding::excessBy(glm::dvec3 point, double fraction) const {
   return excessOf(fraction + std::round(turns - fraction));
 }
 
-double SolidWinding::membraneDistance(glm::dvec3 point, double limit) const {
+double SolidWinding::membraneDistance(glm::dvec3 point, double limit, const NearRims* near) const {
   if (!open_) return HUGE_VAL;
+  if (near) {
+    const std::optional<WindingAround> around = near->around(point, 0.0);
+    if (around && isFarFromMembranes(*around, glm::dvec3(0.0), 0.0, limit)) return HUGE_VAL;
+  }
   const Rims& rims = open_->rims();
   const bool areMany = rims.areMany();
   const WindingAround here = areMany ? WindingAround{} : rims.fractionAndSlopeAt(point);

@@ -28,19 +28,19 @@ public:
 
   /// See InsideTest.
   double excess(glm::dvec3 point) const { return excess(point, false); }
-  bool isInside(glm::dvec3 point) const { return excess(point, true) >= 0; }
-  bool isSteady(glm::dvec3 center, double radius) const;
-  std::optional<WindingAround> around(glm::dvec3 center, double radius) const {
-    return open_ ? open_->rims().around(center, radius) : std::nullopt;
+  bool isInside(glm::dvec3 point, const NearRims* near = nullptr) const { return excess(point, true, near) >= 0; }
+  std::optional<NearRims> nearRims(glm::dvec3 center, double radius) const {
+    return open_ ? open_->nearRims(center, radius) : std::nullopt;
   }
-  double membraneDistance(glm::dvec3 point, double limit) const;
+  bool isSteady(glm::dvec3 center, double radius) const;
+  double membraneDistance(glm::dvec3 point, double limit, const NearRims* near = nullptr) const;
   /// True where the answer can change without a surface between: open triangles.
   bool hasOpenTriangles() const { return open_.has_value(); }
   /// Of moments, and of hierarchies besides the whole one.
   std::size_t bytes() const;
 
 private:
-  double excess(glm::dvec3 point, bool isSignEnough) const;
+  double excess(glm::dvec3 point, bool isSignEnough, const NearRims* near = nullptr) const;
   /// By the exact fraction of the open triangles' number.
   double excessBy(glm::dvec3 point, double fraction) const;
   /// Of closed ones, a whole number.
@@ -67,22 +67,25 @@ public:
              const std::string& label, std::optional<SolidWinding> ready = std::nullopt);
 
   /// point   soup space
-  bool isInside(glm::dvec3 point) const { return winding_ ? winding_->isInside(point) : excess(point) >= 0; }
+  /// near    of a ball that holds it, if there: changes the time, never the result
+  bool isInside(glm::dvec3 point, const NearRims* near = nullptr) const {
+    return winding_ ? winding_->isInside(point, near) : excess(point) >= 0;
+  }
   /// How far the point is from changing sides: at least 0 inside. For open triangles their winding number less one
   /// half, which is smooth wherever there is no triangle; infinite (either way) where only a triangle could change the
   /// answer. Near one half to 1e-9; elsewhere, with very many rim edges, to 0.01.
   double excess(glm::dvec3 point) const;
-  /// The open triangles' winding number in a ball, by their rims alone: where it keeps to one side of one half, points
-  /// that can be joined without crossing a triangle have the same answer. Nothing where that is not known: a rim comes
-  /// into the ball, there are none or very many.
-  std::optional<WindingAround> around(glm::dvec3 center, double radius) const {
-    return winding_ ? winding_->around(center, radius) : std::nullopt;
+  /// The open triangles' rims as they are seen from a ball: where the winding number by them keeps to one side of one
+  /// half, points that can be joined without crossing a triangle have the same answer. Nothing where there are none or
+  /// very many.
+  std::optional<NearRims> nearRims(glm::dvec3 center, double radius) const {
+    return winding_ ? winding_->nearRims(center, radius) : std::nullopt;
   }
   /// How far a point is from where the answer changes although no triangle is there, to first order: excess by slope.
   ///
   /// returns  soup space; infinite beyond limit or where the number is almost whole
-  double membraneDistance(glm::dvec3 point, double limit) const {
-    return winding_ ? winding_->membraneDistance(point, limit) : HUGE_VAL;
+  double membraneDistance(glm::dvec3 point, double limit, const NearRims* near = nullptr) const {
+    return winding_ ? winding_->membraneDistance(point, limit, near) : HUGE_VAL;
   }
   /// True where points that can be joined within a ball without crossing a triangle are known to have the same answer.
   bool isSteady(glm::dvec3 center, double radius) const {

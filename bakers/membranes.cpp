@@ -45,7 +45,12 @@ class MembraneSearch {
 public:
   /// distances  512 to triangles, in voxels: what is not nearer is of no interest; nothing: all is
   MembraneSearch(const SamplingRequest& request, const InsideTest& test, glm::ivec3 brick, const float* distances)
-      : request_(request), test_(test), brick_(brick), distances_(distances) {
+      : request_(request),
+        test_(test),
+        brick_(brick),
+        near_(test.nearRims(centerOf(SampleCube{}),
+                            (SampleCube{}.radiusVoxels() + kReachVoxels) * request.grid.voxelSize)),
+        distances_(distances) {
     voxels_.fill(std::numeric_limits<float>::infinity());
   }
 
@@ -61,12 +66,13 @@ private:
   void look(const SampleCube& cube) {
     const SampleGrid& grid = request_.grid;
     const double radius = cube.radiusVoxels() * grid.voxelSize;
-    const glm::dvec3 center = grid.origin + grid.voxelSize * (glm::dvec3(kBrickCells * brick_) + cube.centerVoxels());
-    const std::optional<WindingAround> around = test_.around(center, radius);
+    const glm::dvec3 center = centerOf(cube);
+    std::optional<WindingAround> around;
+    if (near_) around = near_->around(center, radius);
     const double farthest = limitOf(cube);
     if (farthest <= 0) return;
     if (around && isFarFromMembranes(*around, glm::dvec3(0.0), radius, farthest)) return;
-    if (!request_.isComplete && cube.side > 2 && test_.isSteady(center, radius + limit())) return;
+    if (!request_.isComplete && cube.side > 2 && isSteady(center, radius + limit())) return;
     if (cube.side > kWholeCube) {
       for (int i = 0; i < 8; ++i) look(cube.eighth(i));
       return;
@@ -75,8 +81,18 @@ private:
       const glm::dvec3 point = grid.sample(brick_, sample);
       const double limit = limitOf(sampleIndex(sample));
       if (limit > 0 && (!around || !isFarFromMembranes(*around, point - center, 0.0, limit)))
-        voxels_[sampleIndex(sample)] = static_cast<float>(test_.membraneDistance(point, limit) / grid.voxelSize);
+        voxels_[sampleIndex(sample)] =
+            static_cast<float>(test_.membraneDistance(point, limit, near_ ? &*near_ : nullptr) / grid.voxelSize);
     });
+  }
+  bool isSteady(glm::dvec3 center, double radius) const {
+    if (!near_) return test_.isSteady(center, radius);
+    const std::optional<WindingAround> around = near_->around(center, radius);
+    return around && around->leastFromHalf(glm::dvec3(0.0), radius) > 0;
+  }
+  glm::dvec3 centerOf(const SampleCube& cube) const {
+    const SampleGrid& grid = request_.grid;
+    return grid.origin + grid.voxelSize * (glm::dvec3(kBrickCells * brick_) + cube.centerVoxels());
   }
   /// Up to where membranes matter to a sample, in soup space; 0: none does.
   double limitOf(std::size_t sample) const {
@@ -95,6 +111,7 @@ private:
   const SamplingRequest& request_;
   const InsideTest& test_;
   glm::ivec3 brick_;
+  const std::optional<NearRims> near_; ///< as far as membranes matter; nothing: there are very many
   const float* distances_;
   std::array<float, kSamples> voxels_;
 };

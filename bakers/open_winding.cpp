@@ -27,6 +27,17 @@ NearlyTurns OpenWinding::nearlyAt(glm::dvec3 point) const {
   return turns;
 }
 
+std::optional<NearRims> OpenWinding::nearRims(glm::dvec3 center, double radius) const {
+  if (!rays_) return std::nullopt;
+  return NearRims(rims_, rays_->rayFrom(center), center, radius);
+}
+
+NearlyTurns OpenWinding::nearlyAt(glm::dvec3 point, const NearRims& near) const {
+  NearlyTurns turns = near.turnsAt(point);
+  turns.turns += rays_->crossings(near.rayFrom(point));
+  return turns;
+}
+
 double OpenWinding::exactlyAt(glm::dvec3 point) const {
   if (!sums_) {
     const RayWinding::Ray ray = rays_->rayFrom(point);

@@ -8,8 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "bakers/ray_winding.h"
-#include "bakers/rims.h"
+#include "bakers/near_rims.h"
 #include "bakers/winding_number.h"
 
 namespace brickfield {
@@ -33,6 +32,9 @@ public:
   /// cost      4 ns a rim edge
   /// proved by tests/bake/bakers/open_winding_test.cpp
   double exactlyAt(glm::dvec3 point) const;
+  /// For points in a ball; nothing where edges are many.
+  std::optional<NearRims> nearRims(glm::dvec3 center, double radius) const;
+  NearlyTurns nearlyAt(glm::dvec3 point, const NearRims& near) const;
   std::size_t bytes() const; ///< of all but the whole hierarchy
 
 private:

@@ -36,6 +36,11 @@ public:
       way[(along + 2) % 3] = double{kRowShear} * oneOverLength;
       return way;
     }
+    /// Whether a ball may be on the ray.
+    bool comesThrough(glm::dvec3 toCenter, double radius) const {
+      const double ahead = glm::dot(toCenter, direction());
+      return ahead > -radius && glm::dot(toCenter, toCenter) - ahead * ahead < radius * radius;
+    }
   };
   Ray rayFrom(glm::dvec3 point) const;
   /// By how much more often the ray comes out of the triangles' backs than out of their fronts. Of use for triangles

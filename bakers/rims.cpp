@@ -48,33 +48,10 @@ namespace avx2 {
 #endif
 
 constexpr double kFourPi = 4.0 * std::numbers::pi;
-// By how much t x r / r^3 changes a unit of way, times r^3: |t x v - 3 (t x r)(r.v)| for unit vectors is at most 2
-// along r and 1 across it.
-constexpr double kFieldChange = 2.2360680;
 constexpr double kSlackTurns = 1e-9; // over rounding
 constexpr std::size_t kBundleQuads = 16;
 constexpr double kFarRadii = 3;     // of a bundle: beyond, it counts as one edge where there are many
 constexpr double kFarLoopRadii = 4; // of a loop: beyond, it makes less than 0.03 turns
-
-/// Sum of angles, as the number whose argument it is but for whole turns, and those.
-class AngleSum {
-public:
-  /// of an angle between -pi and pi
-  void add(double real, double imaginary) {
-    const double sumReal = real_ * real - imaginary_ * imaginary, sumImaginary = real_ * imaginary + imaginary_ * real;
-    if (imaginary_ >= 0 && imaginary >= 0 && sumImaginary < 0) ++turns_;
-    if (imaginary_ < 0 && imaginary < 0 && sumImaginary >= 0) --turns_;
-    real_ = sumReal, imaginary_ = sumImaginary;
-  }
-  void add(const StripSums& sums) {
-    for (std::size_t i = 0; i < 4; ++i) add(sums.real[i], sums.imaginary[i]), turns_ += sums.turns[i];
-  }
-  double turns() const { return turns_ + std::atan2(imaginary_, real_) / (2.0 * std::numbers::pi); }
-
-private:
-  double real_ = 1, imaginary_ = 0;
-  int turns_ = 0;
-};
 
 double fractionOf(const FanSums& sums) {
   double real = 1, imaginary = 0;
@@ -194,10 +171,7 @@ void Rims::bundleEdges() {
     glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
     for (std::size_t i = bundle.begin; i < bundle.end; ++i)
       for (std::size_t lane = 0; lane < 4; ++lane) {
-        const auto pointOf = [&, &p = edges_[i].points](std::size_t k) {
-          return (glm::dvec3(p[0][k], p[1][k], p[2][k]) - frame_.centerObject) * frame_.unitsPerMetre;
-        };
-        const glm::dvec3 from = pointOf(lane), to = pointOf(lane + 1);
+        const glm::dvec3 from = point(i, lane), to = point(i, lane + 1);
         low = glm::min(low, glm::min(from, to)), high = glm::max(high, glm::max(from, to));
         bundle.length += glm::length(to - from);
         bundle.way += to - from;
@@ -242,17 +216,15 @@ StripSums stripsOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& fra
   return portable::multiplyStrips(edges, frame, ray);
 }
 
-/// Whether a ball may be on a ray.
-bool isOnRay(glm::dvec3 direction, glm::dvec3 toCenter, double radius) {
-  const double along = glm::dot(toCenter, direction), across = glm::dot(toCenter, toCenter) - along * along;
-  return along > -radius && across < radius * radius;
+void add(AngleSum& sum, const StripSums& strips) {
+  for (std::size_t i = 0; i < 4; ++i) sum.add(strips.real[i], strips.imaginary[i]), sum.addTurns(strips.turns[i]);
 }
 
 } // namespace
 
 double Rims::exactTurnsAlong(const RayWinding::Ray& ray) const {
   AngleSum sum;
-  sum.add(stripsOf(edges_, frame_, ray));
+  add(sum, stripsOf(edges_, frame_, ray));
   return sum.turns();
 }
 
@@ -261,17 +233,16 @@ double Rims::exactTurnsAlong(const RayWinding::Ray& ray) const {
 NearlyTurns Rims::turnsAlong(const RayWinding::Ray& ray) const {
   NearlyTurns nearly{0, kSlackTurns};
   AngleSum near;
-  const glm::dvec3 direction = ray.direction();
   for (const Loop& loop : loops_) {
     const glm::dvec3 toCenter = loop.center - ray.origin;
     const double distance = glm::length(toCenter), away = distance - loop.radius;
-    if (away > (kFarLoopRadii - 1) * loop.radius && !isOnRay(direction, toCenter, loop.radius)) {
+    if (away > (kFarLoopRadii - 1) * loop.radius && !ray.comesThrough(toCenter, loop.radius)) {
       const double oneOverAway = 1.0 / away, oneOverDistance = 1.0 / distance;
       nearly.turns +=
           glm::dot(loop.areaVector, toCenter) / kFourPi * oneOverDistance * oneOverDistance * oneOverDistance;
       nearly.slack += 2.0 * loop.area * loop.radius / kFourPi * oneOverAway * oneOverAway * oneOverAway;
     } else {
-      near.add(stripsOf(std::span(edges_).subspan(loop.begin, loop.end - loop.begin), frame_, ray));
+      add(near, stripsOf(std::span(edges_).subspan(loop.begin, loop.end - loop.begin), frame_, ray));
     }
   }
   nearly.turns += near.turns();

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,24 @@ struct WindingAround {
   }
   /// Slopes are no steeper so far away.
   double steepest(double distance) const { return glm::length(slope) + bend * distance + slopeSlack; }
+};
+
+/// Sum of angles, as the number whose argument it is but for whole turns, and those.
+class AngleSum {
+public:
+  /// The argument of a number, between -pi and pi.
+  void add(double real, double imaginary) {
+    const double sumReal = real_ * real - imaginary_ * imaginary, sumImaginary = real_ * imaginary + imaginary_ * real;
+    if (imaginary_ >= 0 && imaginary >= 0 && sumImaginary < 0) ++turns_;
+    if (imaginary_ < 0 && imaginary < 0 && sumImaginary >= 0) --turns_;
+    real_ = sumReal, imaginary_ = sumImaginary;
+  }
+  void addTurns(int turns) { turns_ += turns; }
+  double turns() const { return turns_ + std::atan2(imaginary_, real_) / (2.0 * std::numbers::pi); }
+
+private:
+  double real_ = 1, imaginary_ = 0;
+  int turns_ = 0;
 };
 
 /// A number of turns that is right to the slack.
@@ -91,6 +110,23 @@ public:
     glm::dvec3 centerObject{0.0};
     double unitsPerMetre = 1;
   };
+  /// Edges that lead back to where they begin: all alone a current that is seen as a dipole from afar.
+  struct Loop {
+    std::uint32_t begin, end; ///< quads
+    glm::dvec3 center;
+    double radius;
+    double area;           ///< of a surface within the ball that the loop bounds
+    glm::dvec3 areaVector; ///< of any surface that it bounds
+  };
+  const std::vector<Loop>& loops() const { return loops_; } ///< where edges are few
+  /// The k-th of a quad's five points, in soup space.
+  glm::dvec3 point(std::size_t quad, std::size_t k) const {
+    const auto& p = edges_[quad].points;
+    return (glm::dvec3(p[0][k], p[1][k], p[2][k]) - frame_.centerObject) * frame_.unitsPerMetre;
+  }
+  /// By how much t x r / r^3 changes a unit of way, times r^3: |t x v - 3 (t x r)(r.v)| for unit vectors is at most 2
+  /// along r and 1 across it.
+  static constexpr double kFieldChange = 2.2360680;
 
 private:
   static constexpr std::size_t kFewEdges = 512;
@@ -101,14 +137,6 @@ private:
     glm::dvec3 center;
     double radius, length;
     glm::dvec3 way; ///< sum of the edges as vectors
-  };
-  /// Edges that lead back to where they begin: all alone a current that is seen as a dipole from afar.
-  struct Loop {
-    std::uint32_t begin, end; ///< of edges_
-    glm::dvec3 center;
-    double radius;
-    double area;           ///< of a surface within the ball that the loop bounds
-    glm::dvec3 areaVector; ///< of any surface that it bounds
   };
   struct Field {
     glm::dvec3 slope{0.0};     ///< turns per unit

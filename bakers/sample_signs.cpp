@@ -18,7 +18,11 @@ constexpr std::size_t kMostUnsure = 16; // twice what smaller cubes would ask
 class CellAsker {
 public:
   CellAsker(const SampleGrid& grid, glm::ivec3 cell, const InsideTest& test, const float* distances)
-      : grid_(grid), cell_(cell), test_(test), distances_(distances) {
+      : grid_(grid),
+        cell_(cell),
+        test_(test),
+        near_(test.nearRims(pointAt(SampleCube{}.centerVoxels()), SampleCube{}.radiusVoxels() * grid.voxelSize)),
+        distances_(distances) {
     if (!distances) return;
     links_.emplace(distances);
     offSurface_ = samplesOffSurface(distances);
@@ -33,13 +37,18 @@ private:
   void ask(const SampleCube& cube) {
     if (cube.side == 1) return askOne(cube.first);
     const double radius = cube.radiusVoxels() * grid_.voxelSize;
-    const std::optional<WindingAround> around = test_.around(pointAt(cube.centerVoxels()), radius);
-    if (around && askBySides(cube, *around)) return;
-    if (!around && test_.isSteady(pointAt(cube.centerVoxels()), radius))
+    if (near_) {
+      const std::optional<WindingAround> around = near_->around(pointAt(cube.centerVoxels()), radius);
+      if (around && askBySides(cube, *around)) return;
+    } else if (test_.isSteady(pointAt(cube.centerVoxels()), radius)) {
       return askGroups(samplesOf(cube)); // very many rims
+    }
     for (int i = 0; i < 8; ++i) ask(cube.eighth(i));
   }
-  void askOne(glm::ivec3 sample) { signs_[sampleIndex(sample)] = test_.isInside(grid_.sample(cell_, sample)); }
+  void askOne(glm::ivec3 sample) { signs_[sampleIndex(sample)] = isInside(sample); }
+  bool isInside(glm::ivec3 sample) const {
+    return test_.isInside(grid_.sample(cell_, sample), near_ ? &*near_ : nullptr);
+  }
 
   static SampleMask samplesOf(const SampleCube& cube) {
     SampleMask mask{};
@@ -93,8 +102,7 @@ private:
       }
   }
   void answer(std::size_t sample, const SampleMask& group) {
-    if (test_.isInside(grid_.sample(cell_, sampleOfIndex(sample))))
-      forEachSample(group, [&](std::size_t i) { signs_[i] = 1; });
+    if (isInside(sampleOfIndex(sample))) forEachSample(group, [&](std::size_t i) { signs_[i] = 1; });
   }
 
   glm::dvec3 pointAt(glm::dvec3 voxels) const {
@@ -104,6 +112,7 @@ private:
   const SampleGrid& grid_;
   glm::ivec3 cell_;
   const InsideTest& test_;
+  const std::optional<NearRims> near_; ///< of the cell; nothing: there are very many
   const float* distances_;
   std::optional<SampleLinks> links_;
   SampleMask offSurface_{};
