@@ -29,7 +29,8 @@ TEST_F(LeafCards, TreeAt256KeepsItsLeaves) {
   const Fidelity whole = measure(scene, scene.autoView({640, 640}));
   EXPECT_GE(whole.silhouetteIou, kLeastIou);
   EXPECT_GT(whole.bothHit, 20000u);
-  for (const glm::vec3 eye : {glm::vec3(2200, 1500, 900), glm::vec3(-1200, 2600, -1900)}) {
+  for (const glm::vec3 eye : {glm::vec3(2200, 1500, 900), glm::vec3(-1200, 2600, -1900), glm::vec3(1600, 400, -2400),
+                              glm::vec3(-2500, 900, 1300)}) {
     const Fidelity side = measure(scene, scene.view(eye, {0, 1500, 0}, {640, 640}, 50));
     EXPECT_GE(side.silhouetteIou, kLeastIou) << eye.x;
     EXPECT_GT(side.bothHit, 40000u) << eye.x;
