@@ -145,27 +145,36 @@ public:
   }
 
   SampleRows ownRows() const {
-    SampleRows rows{};
-    for (std::size_t i = 0; i < kSamples; ++i)
-      if (ownerOf(sampleOfIndex(i)) == glm::ivec3(0))
-        rows[i / kBrickSamples] |= static_cast<std::uint8_t>(1u << (i % kBrickSamples));
+    SampleRows rows = allSamples();
+    forEachForeign([&](std::size_t i, std::size_t, std::size_t) {
+      rows[i / kBrickSamples] &= static_cast<std::uint8_t>(~(1u << (i % kBrickSamples)));
+    });
     return rows;
   }
   /// Calls visit(sample, slot of the owner, its sample) for the samples of others.
   template <typename Visit>
   void forEachForeign(Visit visit) const {
-    for (std::size_t i = 0; i < kSamples; ++i) {
-      const glm::ivec3 sample = sampleOfIndex(i), owner = ownerOf(sample);
-      if (owner != glm::ivec3(0))
-        visit(i, slotOfCell_[grid_.cellOfBrick(brick_ + owner)], sampleIndex(sample - kBrickCells * owner));
+    for (std::size_t sides = 0; sides < ownerOf_.size(); ++sides) {
+      const glm::ivec3 owner = ownerOf_[sides];
+      if (owner == glm::ivec3(0)) continue;
+      const std::size_t slot = slotOfCell_[grid_.cellOfBrick(brick_ + owner)];
+      const auto s = static_cast<int>(sides);
+      const Samples x = samplesOn(s % 3), y = samplesOn(s / 3 % 3), z = samplesOn(s / 9);
+      glm::ivec3 sample;
+      for (sample.z = z.first; sample.z <= z.last; ++sample.z)
+        for (sample.y = y.first; sample.y <= y.last; ++sample.y)
+          for (sample.x = x.first; sample.x <= x.last; ++sample.x)
+            visit(sampleIndex(sample), slot, sampleIndex(sample - kBrickCells * owner));
     }
   }
 
 private:
-  /// 0 in the first sample along an axis, 2 in the last, 1 between.
-  static int sideOf(int sample) { return sample == 0 ? 0 : sample == kBrickCells ? 2 : 1; }
-  glm::ivec3 ownerOf(glm::ivec3 sample) const {
-    return ownerOf_[static_cast<std::size_t>(9 * sideOf(sample.z) + 3 * sideOf(sample.y) + sideOf(sample.x))];
+  /// Along an axis: side 0 is the first sample, 2 the last, 1 those between.
+  struct Samples {
+    int first, last;
+  };
+  static Samples samplesOn(int side) {
+    return side == 0 ? Samples{0, 0} : side == 1 ? Samples{1, kBrickCells - 1} : Samples{kBrickCells, kBrickCells};
   }
   bool exists(glm::ivec3 offset) const {
     const glm::ivec3 brick = brick_ + offset;
@@ -188,7 +197,7 @@ private:
   const SampleGrid& grid_;
   const std::vector<std::uint32_t>& slotOfCell_;
   glm::ivec3 brick_;
-  std::array<glm::ivec3, 27> ownerOf_;
+  std::array<glm::ivec3, 27> ownerOf_; ///< by sides
 };
 
 /// Distances at candidates: each measures its own samples, then takes those that it shares from their owners.

@@ -16,19 +16,35 @@ namespace {
 
 constexpr double kFloatSlack = 2e-6;
 
+/// Where the foot of a point on a triangle's plane is.
+struct Foot {
+  glm::dvec3 ab, ac;
+  double weightB, weightC, weightSum; ///< of the corners, and of all three
+
+  Foot(glm::dvec3 point, const std::array<glm::dvec3, 3>& corners)
+      : ab(corners[1] - corners[0]), ac(corners[2] - corners[0]) {
+    // Triple products, not the differences of products of dot products: those lose a sliver's inside to cancellation.
+    const glm::dvec3 ap = point - corners[0], normal = glm::cross(ab, ac);
+    weightB = glm::dot(glm::cross(ap, ac), normal), weightC = glm::dot(glm::cross(ab, ap), normal);
+    weightSum = glm::dot(normal, normal);
+  }
+  bool isInside() const { return weightB >= 0 && weightC >= 0 && weightB + weightC <= weightSum; }
+  /// Whether it is beyond the edge from corner k. From outside, one of those edges has the closest point.
+  bool isBeyond(std::size_t k) const {
+    return k == 0 ? !(weightC >= 0) : k == 1 ? !(weightB + weightC <= weightSum) : !(weightB >= 0);
+  }
+};
+
 /// The distance to closestPointOnTriangle's point.
 inline double distanceToTriangle(glm::dvec3 point, const std::array<glm::dvec3, 3>& corners) {
-  const auto [a, b, c] = corners;
-  const glm::dvec3 ab = b - a, ac = c - a, ap = point - a;
-  const glm::dvec3 normal = glm::cross(ab, ac);
-  const double weightB = glm::dot(glm::cross(ap, ac), normal), weightC = glm::dot(glm::cross(ab, ap), normal);
-  const double normalSquared = glm::dot(normal, normal);
-  if (weightB >= 0 && weightC >= 0 && weightB + weightC <= normalSquared) {
-    const double v = weightB / normalSquared, w = weightC / normalSquared;
-    return glm::length(point - (a + v * ab + w * ac));
+  const Foot of(point, corners);
+  if (of.isInside()) {
+    const double v = of.weightB / of.weightSum, w = of.weightC / of.weightSum;
+    return glm::length(point - (corners[0] + v * of.ab + w * of.ac));
   }
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
+    if (!of.isBeyond(k)) continue;
     const glm::dvec3 from = corners[k], edge = corners[(k + 1u) % 3u] - from;
     const double t = std::clamp(glm::dot(point - from, edge) / glm::dot(edge, edge), 0.0, 1.0);
     const glm::dvec3 away = point - (from + t * edge);
@@ -54,19 +70,15 @@ namespace avx2 {
 } // namespace
 
 PointOnTriangle closestPointOnTriangle(glm::dvec3 point, const std::array<glm::dvec3, 3>& corners) {
-  const auto [a, b, c] = corners;
-  const glm::dvec3 ab = b - a, ac = c - a, ap = point - a;
-  const glm::dvec3 normal = glm::cross(ab, ac);
-  // Triple products, not the differences of products of dot products: those lose a sliver's inside to cancellation.
-  const double weightB = glm::dot(glm::cross(ap, ac), normal), weightC = glm::dot(glm::cross(ab, ap), normal);
-  const double normalSquared = glm::dot(normal, normal);
-  if (weightB >= 0 && weightC >= 0 && weightB + weightC <= normalSquared) {
-    const double v = weightB / normalSquared, w = weightC / normalSquared;
-    return {a + v * ab + w * ac, {v, w}, TriangleFeature::Inside};
+  const Foot of(point, corners);
+  if (of.isInside()) {
+    const double v = of.weightB / of.weightSum, w = of.weightC / of.weightSum;
+    return {corners[0] + v * of.ab + w * of.ac, {v, w}, TriangleFeature::Inside};
   }
   PointOnTriangle best;
   double bestSquared = std::numeric_limits<double>::infinity();
   for (std::uint8_t k = 0; k < 3; ++k) {
+    if (!of.isBeyond(k)) continue;
     const glm::dvec3 from = corners[k], edge = corners[(k + 1u) % 3u] - from;
     const double t = std::clamp(glm::dot(point - from, edge) / glm::dot(edge, edge), 0.0, 1.0);
     const glm::dvec3 foot = from + t * edge, away = point - foot;
