@@ -38,6 +38,12 @@ NearlyTurns OpenWinding::nearlyAt(glm::dvec3 point, const NearRims& near) const 
   return turns;
 }
 
+double OpenWinding::roughlyAt(glm::dvec3 point) const {
+  constexpr double kMostSlack = 0.02;
+  const NearlyTurns nearly = nearlyAt(point);
+  return nearly.slack <= kMostSlack ? nearly.turns : exactlyAt(point);
+}
+
 double OpenWinding::exactlyAt(glm::dvec3 point) const {
   if (!sums_) {
     const RayWinding::Ray ray = rays_->rayFrom(point);

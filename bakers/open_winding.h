@@ -27,6 +27,8 @@ public:
   /// cost      0.2 us with few edges
   /// proved by tests/bake/bakers/open_winding_test.cpp
   NearlyTurns nearlyAt(glm::dvec3 point) const;
+  /// Within 0.02.
+  double roughlyAt(glm::dvec3 point) const;
   /// To 1e-9; with many edges as near as nearlyAt, but for points that are almost half wrapped.
   ///
   /// cost      4 ns a rim edge

@@ -117,7 +117,7 @@ private:
   /// All open triangles count, later parts were taken out of them.
   float turnsAt(Side& side, glm::dvec3 point) const {
     for (; side.partsSeen < parts_.size(); ++side.partsSeen) {
-      const auto turns = static_cast<float>(parts_[side.partsSeen].nearlyAt(point).turns);
+      const auto turns = static_cast<float>(parts_[side.partsSeen].roughlyAt(point));
       side.turns += side.partsSeen == 0 ? turns : -turns;
     }
     return side.turns;

@@ -26,6 +26,7 @@ Compared compare(const TriangleSoup& soup, const std::vector<glm::dvec3>& points
     const NearlyTurns nearly = winding.nearlyAt(point);
     EXPECT_LE(std::abs(nearly.turns - truth), nearly.slack + 1e-9);
     result.withSlack += nearly.slack > 1e-6;
+    EXPECT_LE(std::abs(winding.roughlyAt(point) - truth), 0.02);
     result.mostExactError = std::max(result.mostExactError, std::abs(winding.exactlyAt(point) - truth));
   }
   return result;
