@@ -5,11 +5,12 @@
 // At half resolution every second pixel of every second row is marched first; a pixel between them takes what its
 // neighbours on the same plane say, and is marched itself where there are none or they disagree.
 #include "lib/gbuffer.glsl"
+#include "lib/group_blocks.glsl"
 #include "lib/shadow_cone.glsl"
 #include "lib/shadow_region.glsl"
 #include "shared/sdf_params.h"
 
-layout(local_size_x = GROUP_WIDTH, local_size_y = GROUP_HEIGHT) in; // by whoever includes this, even numbers
+layout(local_size_x = GROUP_WIDTH, local_size_y = GROUP_HEIGHT) in; // by whoever includes this: whole blocks
 
 layout(std430, binding = kLightBinding) readonly buffer LightBlock { LightRow lights[]; };
 layout(binding = kShadowHalfUnit) uniform sampler2D shadow_half_read;
@@ -137,30 +138,35 @@ bool fillPixel(ivec2 pixel, ShadowedPixel surface, out vec4 visible) {
 
 // Of a square of two by two pixels, each of which asked for other parts of the lights, the mean of those on the pixel's
 // plane whose penumbrae are wide; what is sharp stays so.
-shared vec4 squareVisible[GROUP_WIDTH * GROUP_HEIGHT];
-shared vec4 squarePoint[GROUP_WIDTH * GROUP_HEIGHT];  // eye space; w: a bit for each light whose penumbra is wide
-shared vec3 squareNormal[GROUP_WIDTH * GROUP_HEIGHT];
+//
+// A square is of threads whose numbers differ by 1 and by a block's row.
+const uint GROUP_THREADS = uint(GROUP_WIDTH * GROUP_HEIGHT);
+shared uvec2 squareVisible[GROUP_THREADS]; // 16 bits each
+shared vec4 squarePoint[GROUP_THREADS];    // eye space; w: a bit for each light whose penumbra is wide
+shared uint squareNormal[GROUP_THREADS];   // octahedral
 
 vec4 meanOfSquare(ShadowedPixel surface, vec4 visible, bvec4 isWide) {
-  int at = int(gl_LocalInvocationIndex);
-  squareVisible[at] = visible;
-  squarePoint[at] = vec4(surface.pointEye, dot(vec4(isWide), vec4(1.0, 2.0, 4.0, 8.0)));
-  squareNormal[at] = surface.normal;
+  uint own = gl_LocalInvocationIndex;
+  squareVisible[own] = uvec2(packUnorm2x16(visible.xy), packUnorm2x16(visible.zw));
+  squarePoint[own] = vec4(surface.pointEye, dot(vec4(isWide), vec4(1.0, 2.0, 4.0, 8.0)));
+  squareNormal[own] = packSnorm2x16(octahedralFromDirection(surface.normal));
   barrier();
   vec4 sum = visible, weights = vec4(1.0);
-  for (int i = 1; i < 4; ++i) {
-    int other = at ^ ((i & 1) + GROUP_WIDTH * (i >> 1));
+  for (uint i = 1u; i < 4u; ++i) {
+    uint other = own ^ ((i & 1u) + uint(BLOCK_WIDTH) * (i >> 1));
     int bits = int(squarePoint[other].w);
-    if (bits == 0 || !any(isWide) || !isOnPlane(surface, squarePoint[other].xyz, squareNormal[other])) continue;
+    if (bits == 0 || !any(isWide)) continue;
+    vec3 normal = directionFromOctahedral(unpackSnorm2x16(squareNormal[other]));
+    if (!isOnPlane(surface, squarePoint[other].xyz, normal)) continue;
     vec4 weight = vec4(isWide) * vec4(bits & 1, bits >> 1 & 1, bits >> 2 & 1, bits >> 3 & 1);
-    sum += weight * squareVisible[other];
+    sum += weight * vec4(unpackUnorm2x16(squareVisible[other].x), unpackUnorm2x16(squareVisible[other].y));
     weights += weight;
   }
   return sum / weights;
 }
 
 void main() {
-  ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 at = ivec2(gl_WorkGroupID.xy) * ivec2(GROUP_WIDTH, GROUP_HEIGHT) + placeInBlocks(GROUP_WIDTH);
   bool isInPicture = all(lessThan(at, imageSize(shadow)));
   ivec2 pixel = resolutionStep == STEP_HALF ? 2 * at : at;
   ShadowedPixel surface = ShadowedPixel(vec3(0.0), vec3(0.0), 0.0, false);

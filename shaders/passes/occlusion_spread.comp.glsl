@@ -26,7 +26,7 @@ const float LEAST_SUM = 1.0;
 // What the group's pixels read of the traced ones, from the lowest place of the first pixel's square on.
 const int GROUP = 8, MOST_SIDE = GROUP + OCCLUSION_PATTERN_SIDE + 1;
 shared vec4 tracedPoint[MOST_SIDE * MOST_SIDE];  // eye space; w: open share
-shared vec4 tracedNormal[MOST_SIDE * MOST_SIDE]; // w: 0 where nothing was traced
+shared vec3 tracedNormal[MOST_SIDE * MOST_SIDE]; // 0 where nothing was traced, which is like nothing
 
 struct PixelPoint {
   vec3 pointEye;
@@ -48,14 +48,15 @@ void loadTraced(ivec2 firstPlace) {
   ivec2 last = textureSize(occlusion_traced, 0) - 1;
   for (int i = int(gl_LocalInvocationIndex); i < side * side; i += GROUP * GROUP) {
     ivec2 place = firstPlace + ivec2(i % side, i / side);
-    tracedNormal[i] = vec4(0.0);
+    tracedPoint[i] = vec4(0.0);
+    tracedNormal[i] = vec3(0.0);
     if (any(lessThan(place, ivec2(0))) || any(greaterThan(place, last))) continue;
     TracedOcclusion traced = occlusionOfCode(texelFetch(occlusion_traced, place, 0).rg);
     if (isinf(traced.t)) continue;
     vec3 originEye, directionWorld;
     viewRay(ndcFromPixel(vec2(pixelOfTraced(place, occlusionScale, ivec2(frame.size.xy))) + 0.5), originEye, directionWorld);
     tracedPoint[i] = vec4(originEye + traced.t * directionWorld, traced.open);
-    tracedNormal[i] = vec4(traced.normal, 1.0);
+    tracedNormal[i] = traced.normal;
   }
   barrier();
 }
@@ -75,10 +76,9 @@ float spreadTo(ivec2 pixel, PixelPoint point, ivec2 firstPlace) {
   for (int y = 0; y <= OCCLUSION_PATTERN_SIDE; ++y)
     for (int x = 0; x <= OCCLUSION_PATTERN_SIDE; ++x) {
       int i = (corner.y + y) * side + corner.x + x;
-      if (tracedNormal[i].w == 0.0) continue;
       vec2 within = mix(vec2(1.0), mix(1.0 - part, part, greaterThan(ivec2(x, y), ivec2(0))),
                         equal(ivec2(x, y) % OCCLUSION_PATTERN_SIDE, ivec2(0)));
-      float weight = within.x * within.y * likeness(point, tracedPoint[i].xyz, tracedNormal[i].xyz);
+      float weight = within.x * within.y * likeness(point, tracedPoint[i].xyz, tracedNormal[i]);
       sum += weight * tracedPoint[i].w;
       weights += weight;
     }

@@ -2,13 +2,14 @@
 // objects whose boxes reach into it, nearest first, and each pixel traces them until none can be nearer than what it hit.
 // Compute writes no depth buffer: depths of all that is seen, meshes too, go into a texture of their own.
 #include "lib/frame.glsl"
+#include "lib/group_blocks.glsl"
 #include "lib/motion.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/packing.glsl"
 #include "lib/sdf_hit.glsl"
 #include "lib/tone_curve.glsl"
 
-layout(local_size_x = SDF_TILE_PIXELS, local_size_y = SDF_TILE_PIXELS) in;
+layout(local_size_x = SDF_TILE_WIDTH, local_size_y = SDF_TILE_HEIGHT) in;
 
 layout(std430, binding = kScreenBoxBinding) readonly buffer ScreenBoxBlock { uvec4 boxCount; ScreenBox boxes[]; };
 layout(binding = kDepthMeshUnit) uniform sampler2D depth_mesh;
@@ -28,8 +29,8 @@ layout(binding = 7, rgba16f) writeonly uniform image2D motion;
 
 uniform bool isAlone; // there are no meshes, and nothing was cleared
 
-const uint TILE_THREADS = SDF_TILE_PIXELS * SDF_TILE_PIXELS;
-const uint MOST_REACHING = 4u * TILE_THREADS; // of one round
+const uint TILE_THREADS = SDF_TILE_WIDTH * SDF_TILE_HEIGHT;
+const uint MOST_REACHING = max(TILE_THREADS + 512u, 1024u); // of one round
 const uint NO_BOX = 0xffffffffu;
 
 shared uvec2 reaching[MOST_REACHING]; // distance from the eye, float bits; number
@@ -51,7 +52,7 @@ struct Seen {
 // returns the first that was not asked
 uint listBoxes(uint first, float farthest) {
   uint thread = gl_LocalInvocationIndex;
-  uvec2 tileFirst = gl_WorkGroupID.xy * SDF_TILE_PIXELS, tileLast = tileFirst + SDF_TILE_PIXELS - 1u;
+  uvec2 tile = uvec2(SDF_TILE_WIDTH, SDF_TILE_HEIGHT), tileFirst = gl_WorkGroupID.xy * tile, tileLast = tileFirst + tile - 1u;
   if (thread == 0u) reachingCount = 0u;
   barrier();
   while (first < boxCount.x && reachingCount + TILE_THREADS <= MOST_REACHING) {
@@ -121,7 +122,7 @@ void writeSurface(ivec2 pixel, vec3 originEye, vec3 directionWorld, Seen seen) {
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 tile = ivec2(SDF_TILE_WIDTH, SDF_TILE_HEIGHT), pixel = ivec2(gl_WorkGroupID.xy) * tile + placeInBlocks(tile.x);
   bool isInPicture = all(lessThan(pixel, ivec2(frame.size.xy)));
   vec3 originEye, directionWorld;
   viewRay(ndcFromPixel(vec2(pixel) + 0.5), originEye, directionWorld);
