@@ -17,13 +17,16 @@ struct OcclusionSearch {
 };
 
 const int TAPS = 5, TAP_RAYS = 5, MOST_OCCLUSION_READS = 48;
-const float OCCLUSION_LIFT_TEXELS = 1.25, OCCLUSION_FADE_TEXELS = 12.0, OCCLUSION_LEAST_STEP_TEXELS = 0.5;
+const float OCCLUSION_LIFT_TEXELS = 1.25, OCCLUSION_LIFT_FADE = 0.67, MOST_OCCLUSION_FADE_TEXELS = 16.0;
+const float OCCLUSION_LEAST_STEP_TEXELS = 0.5, LEAVING_STEP_TEXELS = 0.3, LEAST_RISE_TEXELS = 0.01;
 // Of its way a cone is so wide that neighbours of one spiral touch, times this; wider ones fatten what they pass.
 const float CONE_SHARE = 0.2;
 // A cone over an open plane rises by its cosine; as wide as this part of it, errors of the field do not reach it.
 const float CONE_CLEAR = 0.5;
 const float LEAST_CONE_TEXELS = 0.2;
-const float SURE_CONE_DEPTH_TEXELS = 0.4; // things are a texel thick at least
+// A sheet midway between texels is interpolated to nothing deeper than 0.
+const float BLOCKED_TEXELS = 0.01;
+const float CONE_LEAD = 16.0; // just outside of things a cone is free to lead / (1 + lead)
 const float OCCLUSION_GOLDEN_ANGLE = 2.39996323;
 
 uint occlusionReads = 0u; // of this thread
@@ -64,19 +67,27 @@ float openOfTapRay(OcclusionPoint point, float radius, int ray) {
   return cosine / (0.5 * float(TAP_RAYS)) * openOfTaps(point, direction, radius);
 }
 
-// How free a cone is where it is touched most; as traceRay of lib/field_shadow.glsl, from a surface on.
+// How free a cone is where it is touched most; as traceRay of lib/field_shadow.glsl, from a surface on: the lift fades by
+// what the cone climbs, and a cone that begins beside a sheet, within the half texel that the field adds to it, may leave it.
 float openOfCone(OcclusionPoint point, vec3 direction, float spread, float radius) {
-  spread = min(spread, CONE_CLEAR * dot(point.normal, direction));
-  float t = 0.0, free = 1.0;
+  float cosine = dot(point.normal, direction);
+  spread = min(spread, CONE_CLEAR * cosine);
+  float fade = max(OCCLUSION_LIFT_FADE * cosine, OCCLUSION_LIFT_TEXELS / MOST_OCCLUSION_FADE_TEXELS);
+  float t = 0.0, free = 1.0, within = -3e38; // the last reading while it was within what it begins beside
   for (int i = 0; i < MOST_OCCLUSION_READS && t < radius; ++i) {
-    float lift = OCCLUSION_LIFT_TEXELS * point.texel * max(1.0 - t / (OCCLUSION_FADE_TEXELS * point.texel), 0.0);
+    float lift = max(OCCLUSION_LIFT_TEXELS * point.texel - fade * t, 0.0);
     FieldReading reading = readForOcclusion(point.origin + lift * point.normal + t * direction);
     if (reading.cascade < 0 && t > 0.0) break; // outside of the field nothing is known to hide anything
-    float texel = texelOfReading(reading);
-    float width = max(spread * t, LEAST_CONE_TEXELS * texel);
-    float depth = min(0.5 * width, SURE_CONE_DEPTH_TEXELS * texel);
-    free = min(free, (reading.distanceWorld + depth) / width);
-    if (free <= 0.0) return 0.0;
+    float texel = texelOfReading(reading), past = reading.distanceWorld - BLOCKED_TEXELS * texel;
+    if (past <= 0.0) {
+      if (reading.distanceWorld < within + LEAST_RISE_TEXELS * texel) return 0.0;
+      within = reading.distanceWorld;
+      t += LEAVING_STEP_TEXELS * texel;
+      continue;
+    }
+    within = 3e38;
+    float width = spread * t;
+    free = min(free, (past + CONE_LEAD * width) / (max(width, LEAST_CONE_TEXELS * texel) + CONE_LEAD * width));
     t += max(reading.distanceWorld, OCCLUSION_LEAST_STEP_TEXELS * texel);
   }
   return free;
