@@ -73,7 +73,7 @@ public:
   }
   /// How far the point is from changing sides: at least 0 inside. For open triangles their winding number less one
   /// half, which is smooth wherever there is no triangle; infinite (either way) where only a triangle could change the
-  /// answer. Near one half to 1e-9; elsewhere, with very many rim edges, to 0.01.
+  /// answer. To 1e-9; with very many rim edges to 0.015, but for near one half.
   double excess(glm::dvec3 point) const;
   /// The open triangles' rims as they are seen from a ball: where the winding number by them keeps to one side of one
   /// half, points that can be joined without crossing a triangle have the same answer. Nothing where there are none or

@@ -15,11 +15,12 @@ public:
   /// rims    few, outlive this
   /// ray     of any origin: along which strips are drawn out
   /// center, radius  of a ball around all points that will be asked for
+  /// cost    1 us
   NearRims(const Rims& rims, const RayWinding::Ray& ray, glm::dvec3 center, double radius);
 
   /// As Rims::around, of a ball within that of the constructor.
   ///
-  /// cost      3 ns an edge that is near
+  /// cost      2 ns an edge that is near
   /// proved by tests/bake/bakers/near_rims_test.cpp
   std::optional<WindingAround> around(glm::dvec3 center, double radius) const;
   /// As Rims::turnsAlong of rayFrom(point).

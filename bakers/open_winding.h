@@ -24,14 +24,14 @@ public:
 
   /// point     soup space; of no use on a triangle itself
   /// returns   as exactly as its slack says: by few edges what far rims may add, by many 0.015
-  /// cost      0.2 us with few edges
+  /// cost      0.2 to 0.5 us with few edges
   /// proved by tests/bake/bakers/open_winding_test.cpp
   NearlyTurns nearlyAt(glm::dvec3 point) const;
   /// Within 0.02.
   double roughlyAt(glm::dvec3 point) const;
   /// To 1e-9; with many edges as near as nearlyAt, but for points that are almost half wrapped.
   ///
-  /// cost      4 ns a rim edge
+  /// cost      a ray and 3 ns a rim edge
   /// proved by tests/bake/bakers/open_winding_test.cpp
   double exactlyAt(glm::dvec3 point) const;
   /// For points in a ball; nothing where edges are many.

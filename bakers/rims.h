@@ -70,25 +70,25 @@ public:
   ///
   /// point     soup space; of no use on a rim itself
   /// returns   to 1e-12 times the number of edges
-  /// cost      4 ns an edge
+  /// cost      3 ns an edge
   /// proved by tests/bake/bakers/rims_test.cpp
   double fractionAt(glm::dvec3 point) const;
   /// What the rims, drawn out backwards along a ray without end, add to the ray's crossings with the triangles:
   /// together the winding number of its origin. Loops that are far away and off the ray count as dipoles; with few
   /// edges.
   ///
-  /// cost      9 ns an edge of loops that are near, 5 ns a loop that is far
+  /// cost      3 ns an edge of loops that are near
   /// proved by tests/bake/bakers/open_winding_test.cpp
   NearlyTurns turnsAlong(const RayWinding::Ray& ray) const;
-  /// By each edge. cost 5 ns an edge
+  /// By each edge. cost 3 ns an edge
   double exactTurnsAlong(const RayWinding::Ray& ray) const;
   /// Slope of the winding number, in turns per unit of soup space; with many edges its length to a tenth.
   glm::dvec3 slopeAt(glm::dvec3 point) const { return fieldAt(point, 0.0).slope; }
-  /// Both at once, without a bend. cost 5 ns an edge
+  /// Both at once, without a bend. cost 4 ns an edge
   WindingAround fractionAndSlopeAt(glm::dvec3 point) const;
   /// In a ball around a point; nothing where a rim comes into the ball, or with many edges.
   ///
-  /// cost      9 ns an edge of loops that are near, 10 ns a loop that is far
+  /// cost      5 ns an edge of loops that are near
   /// proved by tests/bake/bakers/rims_test.cpp
   std::optional<WindingAround> around(glm::dvec3 center, double radius) const;
   /// By how much the winding number changes at most, but by crossing triangles, from the centre of a ball to any of its

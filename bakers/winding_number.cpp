@@ -103,8 +103,7 @@ struct WindingNumber::Cluster {
   }
 };
 
-WindingNumber::WindingNumber(const MeshHierarchy& hierarchy, float farRadii)
-    : hierarchy_(&hierarchy), farRadii_(farRadii) {
+WindingNumber::WindingNumber(const MeshHierarchy& hierarchy) : hierarchy_(&hierarchy) {
   moments_.resize(hierarchy.nodes().size());
   gather(hierarchy.root(), 0);
 }
@@ -158,7 +157,7 @@ void WindingNumber::setLane(WindingMoments& moments, std::size_t lane, const Clu
   moments.cubicTrace.setLane(lane, glm::vec3(trace));
 }
 
-float WindingNumber::at(glm::dvec3 point) const { return turns(point, farRadii_); }
+float WindingNumber::at(glm::dvec3 point) const { return turns(point, kFarRadii); }
 
 float WindingNumber::exactlyAt(glm::dvec3 point) const { return turns(point, kNothingIsFar); }
 

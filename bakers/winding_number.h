@@ -24,7 +24,7 @@ public:
   static constexpr float kFarRadii = 2.0f; ///< what Barill et al. advise for three terms
 
   /// hierarchy must outlive this
-  explicit WindingNumber(const MeshHierarchy& hierarchy, float farRadii = kFarRadii);
+  explicit WindingNumber(const MeshHierarchy& hierarchy);
 
   /// point    soup space
   /// returns  within 0.01 of the exact number
@@ -42,7 +42,6 @@ private:
   static void setLane(WindingMoments& moments, std::size_t lane, const Cluster& cluster);
 
   const MeshHierarchy* hierarchy_;
-  float farRadii_;
   LargeVector<WindingMoments> moments_; ///< a node each
 };
 
