@@ -77,8 +77,16 @@ public:
     if (!open.empty()) parts_.emplace_back(soup, open);
   }
 
-  /// Takes triangles out of the open ones.
-  void remove(const std::vector<std::uint32_t>& triangles) { parts_.emplace_back(soup_, triangles); }
+  /// Takes triangles out of the open ones; where fewer are left, those are asked from now on.
+  void remove(const std::vector<std::uint32_t>& triangles, const std::vector<std::uint32_t>& left) {
+    if (left.size() > triangles.size()) {
+      parts_.emplace_back(soup_, triangles);
+      return;
+    }
+    parts_.clear();
+    std::fill(sides_.begin(), sides_.end(), Side{});
+    if (!left.empty()) parts_.emplace_back(soup_, left);
+  }
 
   /// How far each triangle's side that is more inside is wrapped, 0 to 1: at one place, or in the mean of all.
   std::vector<double> closures(const std::vector<std::uint32_t>& triangles, bool isOneEnough) {
@@ -176,7 +184,7 @@ public:
       for (const std::uint32_t t : open) (componentOf(t).isSolid() ? left : found).push_back(t);
       open = std::move(left);
       if (found.empty()) break;
-      judge_.remove(found);
+      judge_.remove(found, open);
       result.sheets.insert(result.sheets.end(), found.begin(), found.end());
     }
     std::vector<std::uint32_t> mayBeFlaps;
