@@ -86,6 +86,43 @@ TEST(RayWinding, PointsInThePlaneOfAWallAreToldApart) {
   EXPECT_EQ(countWrong(soup, points), 0);
 }
 
+// Boxes with corners on a lattice share planes, edges and corners; points are on the lattice too, in planes of walls.
+TEST(RayWinding, CountsBoxesOnALattice) {
+  std::mt19937 random(44);
+  const auto at = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
+  int asked = 0, wrong = 0;
+  for (int mesh = 0; mesh < 60; ++mesh) {
+    MeshCase boxes;
+    std::vector<Box> bounds;
+    std::vector<int> turns;
+    for (int i = 0; i < 1 + mesh % 24; ++i) {
+      const glm::vec3 low(at(9), at(9), at(9));
+      bounds.push_back({low, low + glm::vec3(1 + at(4), 1 + at(4), 1 + at(4))});
+      turns.push_back(at(4) == 0 ? -1 : 1);
+      boxes.addBox(bounds.back().min, bounds.back().max, turns.back() < 0);
+    }
+    const TriangleSoup soup = boxes.soup();
+    const MeshHierarchy hierarchy(soup, allTriangles(soup));
+    const RayWinding winding(hierarchy);
+    for (int k = 0; k < 500; ++k) {
+      const glm::vec3 point = glm::vec3(at(28), at(28), at(28)) / 2.0f - 0.5f;
+      int expected = 0;
+      bool isOnWall = false;
+      for (std::size_t i = 0; i < bounds.size(); ++i) {
+        const glm::vec3 within = glm::min(point - bounds[i].min, bounds[i].max - point);
+        const float least = std::min({within.x, within.y, within.z});
+        isOnWall |= least == 0;
+        expected += least > 0 ? turns[i] : 0;
+      }
+      if (isOnWall) continue;
+      ++asked;
+      wrong += winding.at(soup.soupFromObject(point)) != expected;
+    }
+  }
+  EXPECT_GT(asked, 20000);
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST(RayWinding, CountsTurnsEitherWay) {
   MeshCase boxes;
   for (const bool isInverted : {true, false, true, true}) boxes.addBox({-1, -1, -1}, {1, 1, 1}, isInverted);
