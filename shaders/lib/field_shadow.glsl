@@ -32,7 +32,7 @@ const float LEAD = 8.0; // see stepRay
 const float LEAST_DOWN = 0.1, OWN_SURFACE_GRAINS = 2.0;
 const uint MOST_DOWN_READS = 10u;
 // Out of what the point stands beside.
-const float OUT_STEP_GRAINS = 0.2, LEAST_RISE_GRAINS = 0.02;
+const float OUT_STEP_GRAINS = 0.2, LEAST_RISE_GRAINS = 0.04;
 const uint MOST_OUT_READS = 8u;
 
 uint shadowReads = 0u; // of this thread
