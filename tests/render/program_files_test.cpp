@@ -95,6 +95,21 @@ TEST_F(ProgramFiles, StatisticsTellOfTheRunAndLeaveThePictureAlone) {
   EXPECT_EQ(first["settings"]["eye"], (nlohmann::json{1.0, 1.0, 4.0}));
 }
 
+// "auto" becomes the way that was faster here; by both the picture is the same.
+TEST_F(ProgramFiles, TraceTellsHowObjectsWereFound) {
+  for (const std::string way : {"boxes", "tiles", "auto"}) {
+    runOn("render",
+          {"-o", way + ".png", "--layers", way + ".exr", "--stats", way + ".json", "--trace", way, "--cache", "cache"});
+    const nlohmann::json stats = readJson((way + ".json").c_str());
+    const std::string told = stats["settings"]["trace"];
+    EXPECT_TRUE(told == way || (way == "auto" && (told == "boxes" || told == "tiles"))) << told;
+    EXPECT_EQ(stats["milliseconds"]["passes_min"].contains("sdf_tiles"), told == "tiles");
+    EXPECT_EQ(stats["milliseconds"]["passes_min"].contains("sdf_box"), told == "boxes");
+  }
+  for (const char* way : {"tiles.exr", "auto.exr"})
+    EXPECT_EQ(run({"compare", way, "boxes.exr", "--layer", "depth", "--tolerance", "0"}).exitCode, 0) << way;
+}
+
 // Every layer that one has the other has, and steps, which only the renderer makes, fail no comparison.
 TEST_F(ProgramFiles, LayersOfRenderAndReferenceMatch) {
   runOn("render", {"-o", "a.exr", "--layers", "la.exr", "--cache", "cache"});
