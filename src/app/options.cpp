@@ -2,6 +2,7 @@
 #include "app/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <fnmatch.h>
 
@@ -210,6 +211,8 @@ std::vector<std::optional<BakeSettings>> sdfNodes(const Scene& scene, const SdfR
     const std::vector<bool> isMatched = matchedNodes(scene, pattern);
     for (std::size_t i = 0; i < isSdf.size(); ++i) isSdf[i] = isSdf[i] || isMatched[i];
   }
+  if (request.triplanarMetres && std::ranges::find(isSdf, true) == isSdf.end())
+    throw BadInput("--triplanar", "", "is of SDF objects, and there are none; --sdf names them");
   std::vector<std::optional<BakeSettings>> settings(scene.nodes.size());
   for (std::size_t i = 0; i < isSdf.size(); ++i)
     if (isSdf[i]) settings[i] = bakeSettingsOf(scene.nodes[i], request, threads);

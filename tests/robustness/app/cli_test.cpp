@@ -83,6 +83,12 @@ TEST_F(CommandLine, RefusesInputsThatAreNoScene) {
   expectRefused({"inspect", "."}, {"."});
 }
 
+TEST_F(CommandLine, RefusesFlagsOfObjectsWhereThereAreNone) {
+  for (const char* command : {"render", "reference"})
+    expectRefused({command, "scene.gltf", "-o", "a.png", "--sdf", "none", "--triplanar", "1"},
+                  {"--triplanar", "SDF objects"});
+}
+
 TEST_F(CommandLine, RefusesOutputsThatCannotBeWritten) {
   for (const char* command : {"render", "reference"}) {
     expectRefused({command, "scene.gltf", "-o", "nowhere/a.png"}, {"nowhere/a.png", "folder does not exist"});
