@@ -1,8 +1,9 @@
 // Groups of flags on CLI11, and how node extras and flags meet.
 #include "app/options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fnmatch.h>
 
