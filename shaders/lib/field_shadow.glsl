@@ -229,11 +229,12 @@ void stepRay(inout March march, ShadowCone cone, ShadowReading reading, int cell
   float past = reading.distanceWorld - BLOCKED_GRAINS * reading.grain, width = fadeWidth(march, cone), lead = LEAD * width;
   march.free = min(march.free, (past + lead) / (max(width, LEAST_WIDTH_GRAINS * reading.grain) + lead));
   march.t += march.pace * max(reading.distanceWorld, LEAST_STEP_GRAINS * reading.grain);
-  bool isStuck = march.reads >= MOST_RAY_READS && march.t < cone.end; // what creeps along a surface for so long
-  if (past <= 0.0 || isStuck)
+  if (past <= 0.0)
     endRay(march, cone, 0.0, cell);
   else if (march.t >= cone.end)
     endRay(march, cone, march.free, cell);
+  else if (march.reads >= MOST_RAY_READS)
+    endRay(march, cone, 0.0, cell); // it creeps along a surface
 }
 
 // What the way climbs over the surface makes up for the lift, metres.

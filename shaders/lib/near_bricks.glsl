@@ -47,6 +47,7 @@ void findRows(FieldCascade cascade, ivec3 lowest) {
       areAllBetweenTexels = false;
       continue;
     }
+    if ((row >> 24) > MOST_NODE_INSTANCES) areAllBetweenTexels = false;
     known = uvec4(node, known.xyz);
     rowsBetweenTexels = uvec4(row, rowsBetweenTexels.xyz);
   }

@@ -64,7 +64,7 @@ void addFrameOptions(CLI::App& command, RenderRequest& request) {
       "How SDF objects are found: boxes (fragments of their boxes, the default), tiles (of pixels, in compute), or "
       "auto: whichever draws a small picture faster",
       [&](auto& flag, auto& text) { request.trace = parseTrace(flag, text); })
-      ->type_name("PATH");
+      ->type_name("WAY");
   addFieldOptions(command, request.field);
   addRenderShadows(command, request.shadows);
   addFieldShadowOptions(command, request.fieldShadows);

@@ -138,12 +138,15 @@ void drawFrame(const RenderRequest& request, const LoadedRender& loaded, int fra
 }
 
 void settleTrace(RenderRequest& request, const LoadedRender& loaded, Renderer& renderer) {
+  if (std::ranges::all_of(loaded.baked.fields.fieldOfNode, [](int field) { return field < 0; }))
+    request.trace = TraceChoice::Boxes; // there is nothing to trace
   if (request.trace != TraceChoice::Auto) return;
   constexpr std::uint32_t kWidth = 640;
   constexpr int kFrames = 3;
   CameraRequest camera = request.camera;
   glm::uvec2& size = camera.sizePixels;
-  if (size.x > kWidth) size = {kWidth, std::max(1u, size.y * kWidth / size.x)};
+  const std::uint32_t longest = std::max(size.x, size.y);
+  if (longest > kWidth) size = glm::max(glm::uvec2(1), size * kWidth / longest);
   const View view = makeView(loaded.scene, loaded.pose, camera);
   renderer.setPose(loaded.pose);
   renderer.setLighting(loaded.lighting);

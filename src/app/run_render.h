@@ -65,8 +65,8 @@ RendererSettings rendererSettingsOf(const RenderRequest& request);
 /// Sets pose and light of one of the request's frames, 0 to frames - 1, and draws it.
 void drawFrame(const RenderRequest& request, const LoadedRender& loaded, int frame, Renderer& renderer);
 
-/// Makes of TraceChoice::Auto what draws the last frame's surfaces faster, in a small picture; leaves the renderer with
-/// other settings and pose.
+/// Makes of TraceChoice::Auto what draws the last frame's surfaces faster, in a small picture; Boxes where nothing is
+/// an SDF object. Leaves the renderer with other settings and pose.
 void settleTrace(RenderRequest& request, const LoadedRender& loaded, Renderer& renderer);
 
 /// Counts of a frame like the last one. Counting slows drawing down, so it is drawn once more for it.

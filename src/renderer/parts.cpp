@@ -157,7 +157,7 @@ std::vector<PlannedPass> Renderer::Parts::plan(const FrameContext& context) {
   const bool readsTemporal = shown && shown->readsTemporal;
   const bool hasMaps = context.shadowMaps != nullptr, hasRanges = hasMaps && context.shadowMaps->hasRanges();
   const bool boxesFirst = settings.drawOrder == DrawOrder::BoxesFirstAllReversed, hasTiles = tracesTiles();
-  const FrameShape shape{.hasClear = !hasTiles || !meshRuns.empty(), // else tiles write every pixel
+  const FrameShape shape{.hasClear = !hasTiles || !meshRuns.empty(), // else tiles write id and depth of every pixel
                          .boxesFirst = boxesFirst,
                          .hasBoxes = !boxesFirst && !hasTiles,
                          .hasTiles = hasTiles,

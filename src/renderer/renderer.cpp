@@ -111,7 +111,7 @@ void Renderer::render(const View& view) {
     pass.record();
   }
   if (field) parts.field->settle();
-  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
   parts.keepForNextFrame();
 }
 
