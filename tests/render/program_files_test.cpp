@@ -106,7 +106,8 @@ TEST_F(ProgramFiles, TraceTellsHowObjectsWereFound) {
     EXPECT_EQ(stats["milliseconds"]["passes_min"].contains("sdf_tiles"), told == "tiles");
     EXPECT_EQ(stats["milliseconds"]["passes_min"].contains("sdf_box"), told == "boxes");
   }
-  runOn("render", {"-o", "none.png", "--stats", "none.json", "--trace", "tiles", "--sdf", "none"});
+  run({"render", "scene.gltf", "-o", "none.png", "--size", "64x36", "--stats", "none.json", "--trace", "tiles", "--sdf",
+       "none"});
   EXPECT_EQ(readJson("none.json")["settings"]["trace"], "boxes") << "there is nothing to trace";
   for (const char* way : {"tiles.exr", "auto.exr"})
     EXPECT_EQ(run({"compare", way, "boxes.exr", "--layer", "depth", "--tolerance", "0"}).exitCode, 0) << way;
