@@ -10,7 +10,7 @@ const float BAND_TEXELS = 4.0, INSIDE_BAND_TEXELS = 5.0;
 // Closed parts are at least so thick near them, and as thin as they are from so far away on.
 const float THICK_TEXELS = 1.15, FADED_TEXELS = 2.0;
 const float KINK_VOXELS = 0.3;
-const int MOST_ROUNDS = 5, MOST_ROUNDS_FROM_NEIGHBOUR = 2, LOOK_AROUND_ROUND = 3, MOST_FAILURES = 2;
+const int MOST_ROUNDS = 5, LOOK_AROUND_ROUND = 3, MOST_FAILURES = 2;
 // Between samples a distance may fall about this much below the truth where two surfaces are equally far away.
 const float CERTAIN_TEXELS = 0.03;
 // Where bounds stand this close together the search ends.
@@ -26,11 +26,10 @@ struct FieldObject {
   bool isSimilar; // distances in the grid are distances in the world
 };
 
-FieldObject fieldObject(SdfInstance instance, vec3 anchorWorld, float texelMetres) {
-  vec3 gridOrigin = vec3(instance.worldFromGrid[0].w, instance.worldFromGrid[1].w, instance.worldFromGrid[2].w);
+FieldObject fieldObject(SdfInstance instance, vec3 gridOrigin, float texelMetres) {
   float level = clamp(floor(log2(texelMetres / instance.boxMin.w)) - 3.0, 0.0, float(instance.ids.z - 1));
   bool isSimilar = instance.boxMin.w < 1.001 * instance.boxMax.w;
-  return FieldObject(instance, gridOrigin - anchorWorld, int(level), exp2(level), texelMetres, isSimilar);
+  return FieldObject(instance, gridOrigin, int(level), exp2(level), texelMetres, isSimilar);
 }
 
 struct BrickReading {
@@ -259,18 +258,30 @@ void searchSurface(FieldObject object, inout ObjectDistance found, vec3 startGri
 }
 
 // Parts thinner than a texel count as a texel thick, as those of meshes do (passes/field_refine.comp.glsl), and a little
-// thicker because bricks round their sides: metres to be taken off. Where so far behind the surface, seen from the
-// point, lies beyond the other side, the part is as much too thin.
-float thinMetres(FieldObject object, ObjectDistance found) {
-  float texel = object.texelMetres, share = FADED_TEXELS - found.upper / texel, thick = THICK_TEXELS * texel;
-  if (share <= 0.0 || (found.side < 0.0 && share < FADED_TEXELS - 0.5)) return 0.0;
+// thicker because bricks round their sides. Where so far behind the surface, seen from the point, lies beyond the other
+// side, the part is as much too thin.
+//
+// returns false where nothing is to be taken off
+bool placeBehind(FieldObject object, ObjectDistance found, out vec3 behind) {
+  float texel = object.texelMetres, share = FADED_TEXELS - found.upper / texel;
+  if (share <= 0.0 || (found.side < 0.0 && share < FADED_TEXELS - 0.5)) return false;
   vec3 inwards = found.side * (found.surfaceGrid - found.pointGrid);
   float size = lengthWorld(object.instance, inwards);
-  if (size < 1e-4 * texel) return 0.0;
-  vec3 behind = clampToBox(object.instance, found.surfaceGrid + thick / size * inwards);
+  behind = clampToBox(object.instance, found.surfaceGrid + THICK_TEXELS * texel / size * inwards);
+  return size >= 1e-4 * texel;
+}
+
+// Metres to be taken off for a thin part, by what was read behind it.
+float thinBehind(FieldObject object, ObjectDistance found, vec3 behind, BrickReading reading) {
+  float texel = object.texelMetres, share = FADED_TEXELS - found.upper / texel, thick = THICK_TEXELS * texel;
   float stepped = lengthWorld(object.instance, behind - found.surfaceGrid);
-  float beyond = object.instance.boxMax.w * max(readObject(object, behind).grid, 0.0) + thick - stepped;
+  float beyond = object.instance.boxMax.w * max(reading.grid, 0.0) + thick - stepped;
   return 0.5 * min(share, 1.0) * clamp(beyond, 0.0, thick);
+}
+
+float thinMetres(FieldObject object, ObjectDistance found) {
+  vec3 behind;
+  return placeBehind(object, found, behind) ? thinBehind(object, found, behind, readObject(object, behind)) : 0.0;
 }
 
 // Metres, signed. Outside nothing may exceed the truth: at most the band's end where the bound from below lies before

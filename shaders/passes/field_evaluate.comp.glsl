@@ -11,8 +11,7 @@ layout(std430, binding = kFieldBandBinding) readonly buffer BandBlock {
   uint bandCount;
   uint band[]; // words as those of lists, in whatever order
 };
-layout(std430, binding = kFieldKeyBinding) readonly buffer KeyBlock { uint keys[]; };
-layout(std430, binding = kFieldIdBinding) writeonly buffer IdBlock { uint ids[]; };
+layout(std430, binding = kFieldKeyBinding) buffer KeyBlock { uint keys[]; }; // what other groups find here is no key
 layout(std430, binding = kFieldCandidateBinding) readonly buffer CandidateBlock { uint candidates[]; };
 
 const int COARSE_APRON = COARSE_TILE + 2;
@@ -37,7 +36,8 @@ void load(ListedTile tile, FieldCascade cascade) {
   }
   for (int i = thread; i < KEY_APRON * KEY_APRON * KEY_APRON; i += int(OPEN_THREADS)) {
     ivec3 lattice = tile.firstTexel - 1 + cubeIndex(i, KEY_APRON);
-    keyIds[i] = isInWindow(cascade, lattice) ? triangleOfKey(keys[texelWord(cascade, lattice)]) : FIELD_NONE;
+    uint word = isInWindow(cascade, lattice) ? keys[texelWord(cascade, lattice)] : FIELD_NONE;
+    keyIds[i] = isKey(word) ? triangleOfWord(word) : FIELD_NONE;
   }
   barrier();
 }
@@ -68,23 +68,20 @@ void evaluateTile(ListedTile tile) {
     int i = k * int(OPEN_THREADS) + int(gl_LocalInvocationIndex);
     ivec3 at = cubeIndex(i, int(FIELD_TILE));
     uint triangle = keyIds[((at.z + 1) * KEY_APRON + at.y + 1) * KEY_APRON + at.x + 1];
-    if (triangle != FIELD_NONE) {
-      ids[tile.word * FIELD_TILE_TEXELS + uint(i)] = triangle | FIELD_ID_KEYED;
-      continue;
-    }
+    if (triangle != FIELD_NONE) continue;
     ivec3 coarse = at >> 1;
     if (coarseRanks[(coarse.z * COARSE_TILE + coarse.y) * COARSE_TILE + coarse.x] <= FINE_TEXELS + COARSE_AWAY_TEXELS) {
       mine |= 1u << k;
     } else {
-      ids[tile.word * FIELD_TILE_TEXELS + uint(i)] = FIELD_NONE;
+      keys[tile.word * FIELD_TILE_TEXELS + uint(i)] = FIELD_NONE;
     }
   }
   listOpen(mine);
   barrier();
   for (uint i = gl_LocalInvocationIndex; i < openCount; i += OPEN_THREADS) {
     ivec3 at = cubeIndex(int(open[i]), int(FIELD_TILE));
-    ids[tile.word * FIELD_TILE_TEXELS + open[i]] =
-        nearestAround(at, texelCenter(cascade, tile.firstTexel + at), sheetHalf);
+    keys[tile.word * FIELD_TILE_TEXELS + open[i]] =
+        foundWordOf(nearestAround(at, texelCenter(cascade, tile.firstTexel + at), sheetHalf));
   }
 }
 

@@ -5,11 +5,12 @@
 // inside, and signs contradict each other: opposite ones lie closer together than any surface. There what one texel of
 // several sees from behind is inside for all.
 #include "lib/field_far.glsl"
+#include "lib/field_keys.glsl"
 
 layout(local_size_x = 128) in;
 
 layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
-layout(std430, binding = kFieldIdBinding) readonly buffer IdBlock { uint ids[]; };
+layout(std430, binding = kFieldKeyBinding) readonly buffer KeyBlock { uint keys[]; };
 layout(std430, binding = kFieldCandidateBinding) readonly buffer CandidateBlock { uint candidates[]; };
 
 uniform uint listLength;
@@ -91,9 +92,9 @@ float between(ivec3 at, Around texels) {
 // at      its word
 // isTold  the coarse ones around it lie so deep inside that it does as well
 void reviseSign(uint at, uint cascadeIndex, FieldCascade cascade, ivec3 lattice, bool isTold) {
-  uint word = nodes[at], id = ids[at];
+  uint word = nodes[at];
   if ((word & SIGNED) != 0u && (!isTold || (word & FIELD_NODE_INSIDE) != 0u)) return;
-  WorldTriangle t = triangles[id & ~FIELD_ID_KEYED];
+  WorldTriangle t = triangles[triangleOfWord(keys[at])];
   if (!isClosed(t)) return;
   vec3 point = texelCenter(cascade, lattice);
   TriangleHit hit = closestOnTriangle(point, t.a.xyz, t.b.xyz, t.c.xyz);

@@ -1,11 +1,11 @@
-// SDF objects join the field: the minimum of the meshes' value and the values of all objects that reach a tile.
-// Every texel asks all objects for bounds. Texels that need more search for a surface point of the object that is nearest
-// by its bound; then, where the bound of another stays below what was found, of that; at last once more from what their
-// neighbours found. Each bit is a function of the tile alone.
-#include "lib/field_grid.glsl"
-#include "lib/field_objects.glsl"
+// SDF objects join the field: the minimum of the meshes' value and the values of all objects that reach a tile. Each texel
+// asks the grids of nearest points which objects may be nearest, then reads their bricks; what needs a search for the
+// nearest surface point is listed for field_objects_search.
+#include "shared/world_field_params.h"
 
 layout(local_size_x = FIELD_TILE_TEXELS) in; // a texel each
+
+#include "lib/field_object_tile.glsl"
 
 #ifdef FLIPPED // the tiles that field_sides turned over
 layout(std430, binding = kFieldFlipBinding) readonly buffer FlipBlock {
@@ -17,264 +17,203 @@ layout(std430, binding = kFieldFlipBinding) readonly buffer FlipBlock {
 layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
 uniform uint listLength;
 #endif
-layout(std430, binding = kFieldNodeBinding) buffer NodeBlock { uint nodes[]; };
-layout(std430, binding = kFieldSphereBinding) readonly buffer SphereBlock { vec4 spheres[]; };
-layout(binding = 0, r16f) uniform image3D distances[MOST_CASCADES];
-
-// Of one round: objects are asked as many at a time as there are threads while all of them would have room. No more, as
-// 32 KiB of shared memory are promised.
-const uint MOST_REACHING = FIELD_TILE_TEXELS + 96u;
-const float INSIDE_FIRST = -1e30;
-const uint NO_OBJECT = 0xffffffffu, OBJECT_MASK = 0x7fffffffu, OBJECT_UNSURE = 0x80000000u;
-
-shared uvec2 reaching[MOST_REACHING]; // distance from the tile, float bits; number
-shared uvec2 nearestFirst[MOST_REACHING];
-shared uint reachingCount;
-shared uint farthestBits; // largest value in the tile, metres
-// Of each texel: the value so far, metres, and the node's word.
-shared float nearestMetres[FIELD_TILE_TEXELS];
-shared uint nearestWord[FIELD_TILE_TEXELS];
-// The object whose search was the last, and its bound; the bound of the one that is next.
-shared uint lastObject[FIELD_TILE_TEXELS];
-shared float lastBound[FIELD_TILE_TEXELS];
-shared float nextBound[FIELD_TILE_TEXELS];
-// The object that was found nearest, whether another of its points may be nearer, a surface point of it in its grid, and
-// how far away that is.
-shared uint foundObject[FIELD_TILE_TEXELS];
-shared vec4 surfacePoints[FIELD_TILE_TEXELS];
-shared uint open[FIELD_TILE_TEXELS]; // texels that are to search; their order does not matter
-shared uint openCount;
-
-struct Place {
-  FieldCascade cascade;
-  ListedTile tile;
-  vec3 tileCenter;    // anchored
-  float halfDiagonal; // between centres of texels
+layout(std430, binding = kFieldSearchBinding) writeonly buffer SearchBlock { FieldSearch searches[]; };
+layout(std430, binding = kFieldOpenBinding) buffer OpenBlock {
+  uint searchCount, openCount;
+  uvec2 open[]; // of each tile with searches their first row, and how many
 };
 
-ivec3 latticeOf(Place place, uint texel) { return place.tile.firstTexel + cubeIndex(int(texel), int(FIELD_TILE)); }
+shared uint ownSearches, firstSearch; // of the group
 
-vec3 pointOf(Place place, uint texel) { return texelCenter(place.cascade, latticeOf(place, texel)); }
+// A value so far.
+struct Joined {
+  float metres;
+  uint word;
+  FieldSearch search; // object FIELD_NONE: none
+  float bound;        // of its object
+};
 
-float storedMetres(Place place, uint texel) {
-  ivec3 slot = latticeOf(place, texel) & (place.cascade.window.w - 1);
-  return imageLoad(distances[place.tile.cascade], slot).r * place.cascade.texel.x;
+void join(Place place, FieldObject object, float value, inout Joined joined) {
+  if (!isNearer(place, object, value, joined.metres, joined.word)) return;
+  joined.metres = value;
+  joined.word = wordOf(object, joined.word);
 }
 
-FieldObject objectAt(Place place, uint number) {
-  return fieldObject(sdfInstances[number], field.anchor.xyz, place.cascade.texel.x);
+vec3 gridPointOf(FieldObjectRow row, vec3 point) {
+  vec3 p = point - vec3(row.gridFromAnchored[0].w, row.gridFromAnchored[1].w, row.gridFromAnchored[2].w);
+  return vec3(dot(row.gridFromAnchored[0].xyz, p), dot(row.gridFromAnchored[1].xyz, p), dot(row.gridFromAnchored[2].xyz, p));
 }
 
-// Lists those of the next objects that may be nearer than `most` to a texel of the tile, or around it.
-// returns the first that was not asked
-uint listObjects(Place place, uint first, float most) {
-  if (gl_LocalInvocationIndex == 0u) reachingCount = 0u;
-  barrier();
-  while (first < field.counts.z && reachingCount + FIELD_TILE_TEXELS <= MOST_REACHING) {
-    barrier(); // all have read the count
-    uint number = first + gl_LocalInvocationIndex;
-    float reach = most + place.halfDiagonal;
-    if (number < field.counts.z) {
-      vec4 sphere = spheres[number];
-      if (distance(sphere.xyz, place.tileCenter) - sphere.w < reach) {
-        float least = max(boxDistance(objectAt(place, number), place.tileCenter) - place.halfDiagonal, 0.0);
-        if (least <= most) reaching[atomicAdd(reachingCount, 1u)] = uvec2(floatBitsToUint(least), number);
-      }
-    }
-    barrier();
-    first += FIELD_TILE_TEXELS;
-  }
-  barrier();
-  for (uint own = gl_LocalInvocationIndex; own < reachingCount; own += FIELD_TILE_TEXELS) {
-    uint rank = 0u;
-    uvec2 it = reaching[own];
-    for (uint i = 0u; i < reachingCount; ++i) {
-      uvec2 other = reaching[i];
-      rank += uint(other.x < it.x || (other.x == it.x && other.y < it.y));
-    }
-    nearestFirst[rank] = it;
-  }
-  barrier();
-  return first;
+// The least that an object's value may be, by what needs none of its bricks.
+//
+// most  metres beyond which no object counts; comes back as what this one cannot exceed
+float leastValue(Place place, FieldObjectRow row, vec3 point, inout float most) {
+  vec3 pointGrid = gridPointOf(row, point), inBox = clamp(pointGrid, row.boxMin.xyz, row.boxMax.xyz);
+  float metres = row.boxMax.w, outer = metres * distance(pointGrid, inBox);
+  if (outer > 0.0 && outer > most) return outer;
+  if (!isTold(place, row)) return pointGrid == inBox ? -1e30 : outer;
+  NearPoint near = nearPoint(row, pointGrid);
+  // A distance changes no faster than the way to the grid points.
+  most = min(most, metres * (near.signedGrid + 0.9 * row.points.w + near.outer));
+  return metres * leastOf(near);
 }
 
-// returns whether it is the nearest so far
-bool join(Place place, FieldObject object, uint texel, float value) {
-  float range = place.cascade.texel.z * place.cascade.texel.x, metres = nearestMetres[texel];
-  uint word = nearestWord[texel], node = uint(object.instance.ids.x) + 1u;
-  value = max(value, -range);
-  if (value > metres || (value == metres && (value >= range || node >= (word & FIELD_NODE_MASK)))) return false;
-  nearestMetres[texel] = value;
-  nearestWord[texel] = node | (word & ~FIELD_NODE_MASK); // what it says of meshes stays: updates to come ask for it
+// A voxel before a surface point, where distances are finest.
+vec3 beforeSurface(FieldObject object, vec3 pointGrid, vec3 surfaceGrid) {
+  vec3 way = pointGrid - surfaceGrid;
+  return clampToBox(object.instance, surfaceGrid + way * min(1.0, object.fineVoxel / max(length(way), 1e-6)));
+}
+
+// Metres to a point outside by way of a place that was read.
+float upperBy(FieldObject object, vec3 pointGrid, vec3 at, BrickReading reading) {
+  if ((reading.cell & CELL_EMPTY) != 0u) return 1e30;
+  bool isFar = reading.voxel > object.fineVoxel || abs(reading.grid) > 1.5 * reading.voxel;
+  float inner = reading.grid + (isFar ? KINK_VOXELS * reading.voxel : 0.0);
+  return object.instance.boxMax.w * (distance(pointGrid, at) + inner);
+}
+
+// Where there is no row left, what is known of the object from below has to do.
+bool addSearch(uint at, FieldSearch search) {
+  if (at >= uint(searches.length())) return false;
+  searches[at] = search;
   return true;
 }
 
-// An object to be searched, those around the texel first, then by the bound.
-struct Candidate {
-  uint object; // NO_OBJECT: there is none
-  float bound;
-  float next; // of the one after it
+void listSearch(uint number, float bound, inout Joined joined) {
+  if (joined.search.object != FIELD_NONE && joined.bound < joined.metres) {
+    uint at = atomicAdd(searchCount, 1u);
+    if (addSearch(at, FieldSearch(FIELD_NONE, joined.search.object, joined.search.more, 0.0))) joined.search.more = at;
+  }
+  joined.search.object = number;
+  joined.bound = bound;
+}
+
+// Lets an object join, or lists it to be searched. One loop, and one place in it that reads: first the distance, then
+// behind what is found.
+void joinObject(Place place, uint number, vec3 point, inout Joined joined) {
+  FieldObject object = objectAt(place, number);
+  float metres = object.instance.boxMax.w, texel = object.texelMetres, told = 0.0;
+  vec3 pointGrid = gridPoint(object, point), at = clampToBox(object.instance, pointGrid);
+  bool isAround = isTold(place, objectRows[number]) && pointGrid != at;
+  ObjectDistance bound;
+  if (isAround) {
+    NearPoint near = nearPoint(objectRows[number], pointGrid);
+    float least = metres * leastOf(near);
+    bound = ObjectDistance(pointGrid, 1.0, least, least, near.surfaceGrid);
+    told = metres * near.signedGrid + AGREED_TEXELS * texel;
+    if (isInBand(object, bound)) at = beforeSurface(object, pointGrid, near.surfaceGrid);
+  }
+  float thin = 0.0;
+  bool isBehind = false, isKnown = isAround && !isInBand(object, bound);
+  while (!isKnown) {
+    BrickReading reading = readObject(object, at);
+    if (isBehind) {
+      thin = thinBehind(object, bound, at, reading);
+      break;
+    }
+    if (isAround) {
+      bound.upper = upperBy(object, pointGrid, at, reading);
+      isKnown = bound.upper < told;
+    } else {
+      bound = boundOf(object, pointGrid, reading);
+      isKnown = isExact(object, bound, reading);
+      if (isKnown) bound.upper = abs(reading.grid) * metres;
+      if (!isInBand(object, bound)) break;
+    }
+    bool isNear = bound.upper < FADED_TEXELS * texel;
+    if (!isKnown || (isNear && !isAround)) { // in the box the way to the surface is not known
+      listSearch(number, bound.side < 0.0 ? -1e30 : bound.lower, joined);
+      return;
+    }
+    if (!isNear || !placeBehind(object, bound, at)) break;
+    isKnown = false;
+    isBehind = true;
+  }
+  join(place, object, signedDistance(object, bound) - thin, joined);
+}
+
+// Of the objects listed the three that may be nearest, of those after another.
+const int CHOSEN = 3;
+struct Choice {
+  float least[CHOSEN];
+  uint at[CHOSEN]; // in the list
 };
 
-bool isBefore(float bound, uint object, Candidate other) {
-  return bound < other.bound || (bound == other.bound && object < other.object);
+void choose(float least, uint at, inout Choice choice) {
+  for (int i = 0; i < CHOSEN; ++i) {
+    bool isBefore = least < choice.least[i] || (least == choice.least[i] && at < choice.at[i]);
+    float otherLeast = choice.least[i];
+    uint otherAt = choice.at[i];
+    choice.least[i] = isBefore ? least : otherLeast;
+    choice.at[i] = isBefore ? at : otherAt;
+    least = isBefore ? otherLeast : least;
+    at = isBefore ? otherAt : at;
+  }
 }
 
-// The candidate after another. Objects that need no search join.
-Candidate nextCandidate(Place place, uint texel, Candidate last) {
-  vec3 point = pointOf(place, texel);
-  Candidate best = Candidate(NO_OBJECT, 1e30, 1e30);
-  for (uint r = 0u; r < reachingCount; ++r) {
-    uvec2 near = nearestFirst[r];
-    float metres = nearestMetres[texel];
-    if (metres > 0.0 && uintBitsToFloat(near.x) > metres) break;
-    FieldObject object = objectAt(place, near.y);
-    if (metres > 0.0 && boxDistance(object, point) > metres) continue;
-    BrickReading reading = readObject(object, clampToBox(object.instance, gridPoint(object, point)));
-    ObjectDistance bound = boundOf(object, gridPoint(object, point), reading);
-    if (bound.side > 0.0 && bound.lower >= metres) continue;
-    bool isKnown = isExact(object, bound, reading);
-    if (isKnown) bound.upper = abs(reading.grid) * object.instance.boxMax.w;
-    if (!isInBand(object, bound) || (isKnown && bound.upper >= FADED_TEXELS * object.texelMetres)) {
-      join(place, object, texel, signedDistance(object, bound));
-      continue;
+void joinListed(Place place, vec3 point, inout Joined joined) {
+  float lastLeast = -2e30;
+  uint lastAt = 0u;
+  for (;;) {
+    Choice choice;
+    for (int i = 0; i < CHOSEN; ++i) choice.least[i] = 1e30, choice.at[i] = 0u;
+    float most = joined.metres;
+    for (uint i = 0u; i < reachingCount; ++i) {
+      uvec2 it = nearestFirst[i];
+      if (most > 0.0 && uintBitsToFloat(it.x) > most) break;
+      float least = leastValue(place, objectRows[it.y], point, most);
+      bool isAfter = least > lastLeast || (least == lastLeast && i > lastAt);
+      if (isAfter && least < most) choose(least, i, choice);
     }
-    float key = bound.side < 0.0 ? INSIDE_FIRST : bound.lower;
-    if (!isBefore(last.bound, last.object, Candidate(near.y, key, 0.0))) continue;
-    if (isBefore(key, near.y, best)) best = Candidate(near.y, key, best.bound);
-    else best.next = min(best.next, key);
+    for (int i = 0; i < CHOSEN; ++i) {
+      if (choice.least[i] >= joined.metres) return;
+      joinObject(place, nearestFirst[choice.at[i]].y, point, joined);
+    }
+    lastLeast = choice.least[CHOSEN - 1];
+    lastAt = choice.at[CHOSEN - 1];
   }
-  if (best.bound >= nearestMetres[texel]) best.object = NO_OBJECT;
-  return best;
 }
 
-// For the thread's texel; lists it if it is to search.
-void chooseObject(Place place) {
-  uint texel = gl_LocalInvocationIndex;
-  if (nextBound[texel] >= nearestMetres[texel]) return;
-  Candidate candidate = nextCandidate(place, texel, Candidate(lastObject[texel], lastBound[texel], 0.0));
-  nextBound[texel] = candidate.next;
-  if (candidate.object == NO_OBJECT) return;
-  lastObject[texel] = candidate.object;
-  lastBound[texel] = candidate.bound;
-  open[atomicAdd(openCount, 1u)] = texel;
-}
-
-// The surface point of that neighbour in the tile whose is nearest, where it is nearer than the own one: between two
-// surfaces, and around corners, not every texel finds the right one. Inside an object its own surface alone counts.
-// returns its object's number, NO_OBJECT if none is nearer
-uint nearerNeighbour(Place place, uint texel, out vec3 surface) {
-  vec3 point = pointOf(place, texel);
-  float least = surfacePoints[texel].w - 2.0 * ACCURATE_TEXELS * place.cascade.texel.x;
-  uint nearer = NO_OBJECT;
-  ivec3 at = cubeIndex(int(texel), int(FIELD_TILE));
-  for (int side = 0; side < 6; ++side) {
-    ivec3 beside = at + ivec3(side >> 1 == 0, side >> 1 == 1, side >> 1 == 2) * ((side & 1) * 2 - 1);
-    if (any(lessThan(beside, ivec3(0))) || any(greaterThanEqual(beside, ivec3(FIELD_TILE)))) continue;
-    uint other = indexInTile(beside, int(FIELD_TILE)), number = foundObject[other];
-    if (number == NO_OBJECT) continue;
-    number &= OBJECT_MASK;
-    if (nearestMetres[texel] < 0.0 && number != (foundObject[texel] & OBJECT_MASK)) continue;
-    vec3 otherSurface = surfacePoints[other].xyz;
-    FieldObject object = objectAt(place, number);
-    float away = lengthWorld(object.instance, gridPoint(object, point) - otherSurface);
-    if (away >= least) continue;
-    least = away;
-    nearer = number;
-    surface = otherSurface;
-  }
-  return nearer;
-}
-
-// For a listed texel.
-void searchObject(Place place, uint texel) {
-  uint number = lastObject[texel];
-  FieldObject object = objectAt(place, number);
-  vec3 pointGrid = gridPoint(object, pointOf(place, texel));
-  BrickReading reading = readObject(object, clampToBox(object.instance, pointGrid));
-  ObjectDistance found = boundOf(object, pointGrid, reading);
-  SurfacePoint surface = surfaceFrom(reading);
-  if (isExact(object, found, reading)) {
-    found.upper = abs(reading.grid) * object.instance.boxMax.w;
-    found.surfaceGrid = pointGrid - found.side * max(abs(reading.grid), 1e-3) * surface.normalGrid;
-  } else {
-    found.upper = 1e30;
-    searchSurface(object, found, surface.pointGrid, MOST_ROUNDS, true);
-  }
-  bool isNearest = join(place, object, texel, signedDistance(object, found) - thinMetres(object, found));
-  if (!isNearest && foundObject[texel] != NO_OBJECT) return;
-  bool isSure = found.upper - found.lower < 2.0 * ACCURATE_TEXELS * object.texelMetres;
-  foundObject[texel] = number | (isSure ? 0u : OBJECT_UNSURE);
-  surfacePoints[texel] = vec4(found.surfaceGrid, found.upper);
-}
-
-// Once more from a neighbour's surface point. Inside an object what was found may have been too deep.
-void searchAgain(Place place, uint texel) {
-  vec3 surface;
-  uint number = nearerNeighbour(place, texel, surface);
-  if (number == NO_OBJECT) return;
-  FieldObject object = objectAt(place, number);
-  vec3 pointGrid = gridPoint(object, pointOf(place, texel));
-  ObjectDistance found = boundOf(object, pointGrid, readObject(object, clampToBox(object.instance, pointGrid)));
-  bool isSame = (foundObject[texel] & OBJECT_MASK) == number;
-  if (nearestMetres[texel] < 0.0) {
-    if (uint(object.instance.ids.x) + 1u != (nearestWord[texel] & FIELD_NODE_MASK)) return; // a mesh is deeper
-    nearestMetres[texel] = storedMetres(place, texel);
-  }
-  found.upper = isSame ? surfacePoints[texel].w : 1e30;
-  if (isSame) found.surfaceGrid = surfacePoints[texel].xyz;
-  searchSurface(object, found, surface, MOST_ROUNDS_FROM_NEIGHBOUR, false);
-  join(place, object, texel, signedDistance(object, found) - thinMetres(object, found));
-}
-
-void emptyOpen() {
-  barrier();
-  if (gl_LocalInvocationIndex == 0u) openCount = 0u;
-  barrier();
-}
-
-void joinListed(Place place) {
-  uint own = gl_LocalInvocationIndex;
-  lastObject[own] = 0u;
-  lastBound[own] = -2e30;
-  nextBound[own] = -2e30;
-  foundObject[own] = NO_OBJECT;
-  do {
-    emptyOpen();
-    chooseObject(place);
-    barrier();
-    if (own < openCount) searchObject(place, open[own]);
-    barrier();
-  } while (openCount > 0u);
-  emptyOpen();
-  if (foundObject[own] != NO_OBJECT && (foundObject[own] & OBJECT_UNSURE) != 0u) open[atomicAdd(openCount, 1u)] = own;
-  barrier();
-  if (own < openCount) searchAgain(place, open[own]);
-  barrier();
+// Threads of a warp have a block of 4x4x2 texels, which ask the same objects.
+uint texelOfThread(uint thread) {
+  uint x = (thread & 3u) | (thread >> 5 & 1u) << 2, y = (thread >> 2 & 3u) | (thread >> 6 & 1u) << 2;
+  return x | y << 3 | (thread >> 4 & 1u) << 6 | (thread >> 7 & 3u) << 7;
 }
 
 void main() {
   uint index = listIndex();
   if (index >= listLength) return;
-  ListedTile tile = listedTile(listed[index]);
-  FieldCascade cascade = field.cascades[tile.cascade];
-  float texelMetres = cascade.texel.x;
-  Place place = Place(cascade, tile, (vec3(tile.firstTexel) + 0.5 * float(FIELD_TILE)) * texelMetres,
-                      0.8660255 * float(FIELD_TILE - 1u) * texelMetres);
-  if (gl_LocalInvocationIndex == 0u) farthestBits = 0u;
+  Place place = placeOf(listed[index]);
+  uint texel = texelOfThread(gl_LocalInvocationIndex), nodeAt = texelWord(place.cascade, latticeOf(place, texel));
+  if (gl_LocalInvocationIndex == 0u) farthestBits = 0u, ownSearches = 0u;
   barrier();
-  uint texel = gl_LocalInvocationIndex, nodeAt = texelWord(cascade, latticeOf(place, texel)), wordBefore = nodes[nodeAt];
+  vec3 point = pointOf(place, texel);
   float before = storedMetres(place, texel);
-  nearestMetres[texel] = before;
-  nearestWord[texel] = wordBefore;
+  Joined joined;
+  joined.metres = before;
+  joined.word = nodes[nodeAt];
+  joined.search = FieldSearch(nodeAt, FIELD_NONE, FIELD_NONE, 0.0);
+  joined.bound = 0.0;
+  uint wordBefore = joined.word;
   atomicMax(farthestBits, floatBitsToUint(max(before, 0.0))); // positive floats are ordered as their bits
   barrier();
   for (uint first = 0u; first < field.counts.z;) {
     first = listObjects(place, first, uintBitsToFloat(farthestBits));
-    joinListed(place);
+    joinListed(place, point, joined);
+    barrier();
   }
-  if (nearestMetres[texel] == before && nearestWord[texel] == wordBefore) return;
-  nodes[nodeAt] = nearestWord[texel];
-  imageStore(distances[tile.cascade], latticeOf(place, texel) & (cascade.window.w - 1),
-             vec4(nearestMetres[texel] * cascade.texel.y));
+  bool isOpen = joined.search.more != FIELD_NONE || (joined.search.object != FIELD_NONE && joined.bound < joined.metres);
+  uint rank = isOpen ? atomicAdd(ownSearches, 1u) : 0u;
+  barrier();
+  if (gl_LocalInvocationIndex == 0u && ownSearches > 0u) {
+    firstSearch = atomicAdd(searchCount, ownSearches);
+    open[atomicAdd(openCount, 1u)] = uvec2(firstSearch, ownSearches);
+  }
+  barrier();
+  joined.search.metres = joined.metres;
+  if (isOpen) addSearch(firstSearch + rank, joined.search);
+  if (joined.metres == before && joined.word == wordBefore) return;
+  nodes[nodeAt] = joined.word;
+  imageStore(distances[place.tile.cascade], latticeOf(place, texel) & (place.cascade.window.w - 1),
+             vec4(joined.metres * place.cascade.texel.y));
 }

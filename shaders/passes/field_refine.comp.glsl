@@ -1,5 +1,6 @@
 // The band at full resolution, second round: each texel without a key takes the nearest of what it and its six
 // neighbours found; then all get their values.
+#include "lib/field_keys.glsl"
 #include "lib/field_open.glsl"
 #include "lib/field_values.glsl"
 
@@ -14,11 +15,11 @@ layout(std430, binding = kFieldBandBinding) readonly buffer BandBlock {
   uint band[]; // words as those of lists, in whatever order
 };
 #endif
-layout(std430, binding = kFieldIdBinding) readonly buffer IdBlock { uint ids[]; };
+layout(std430, binding = kFieldKeyBinding) readonly buffer KeyBlock { uint keys[]; };
 
 const int APRON = int(FIELD_TILE) + 2;
 shared uint apron[APRON * APRON * APRON];
-shared bool isKnown[27]; // of the tile and those around it: whether they have ids
+shared bool isKnown[27]; // of the tile and those around it: whether field_evaluate went over them
 
 // Of a texel of the tile.
 int apronIndex(int texel) {
@@ -36,7 +37,7 @@ void load(ListedTile tile, FieldCascade cascade) {
   for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += int(OPEN_THREADS)) {
     ivec3 at = cubeIndex(i, APRON) - 1, inTiles = (at >> 3) + 1;
     bool isHere = isKnown[(inTiles.z * 3 + inTiles.y) * 3 + inTiles.x];
-    apron[i] = isHere ? ids[texelWord(cascade, tile.firstTexel + at)] : FIELD_NONE;
+    apron[i] = isHere ? keys[texelWord(cascade, tile.firstTexel + at)] : FIELD_NONE;
   }
   barrier();
   uint mine = 0u;
@@ -52,7 +53,7 @@ void load(ListedTile tile, FieldCascade cascade) {
 }
 
 void considerAt(int at, vec3 point, float sheetHalf, inout Nearest nearest) {
-  if (apron[at] != FIELD_NONE) consider(apron[at] & ~FIELD_ID_KEYED, point, sheetHalf, nearest);
+  consider(triangleOfWord(apron[at]), point, sheetHalf, nearest);
 }
 
 // Closed parts thinner than a texel count as a texel thick, else rays slip through between texels: what is to be taken
@@ -71,9 +72,9 @@ float thinTexels(FieldCascade cascade, vec3 point, TriangleHit hit, vec3 outward
   vec3 behind = hit.closest - direction * cascade.texel.x;
   ivec3 lattice = ivec3(floor(behind * cascade.texel.y));
   if (!isInWindow(cascade, lattice) || !isBandAt(cascade, lattice)) return 0.0;
-  uint id = ids[texelWord(cascade, lattice)];
-  if (id == FIELD_NONE) return 0.0;
-  WorldTriangle back = triangles[id & ~FIELD_ID_KEYED];
+  uint triangle = triangleOfWord(keys[texelWord(cascade, lattice)]);
+  if (triangle == FIELD_NONE) return 0.0;
+  WorldTriangle back = triangles[triangle];
   if (!isClosed(back)) return 0.0;
   TriangleHit backHit = closestOnTriangle(behind, back.a.xyz, back.b.xyz, back.c.xyz);
   vec3 beyond = behind - backHit.closest, backOutwards = unitOrZero(pseudonormalOf(back, backHit, beyond));
@@ -106,7 +107,7 @@ void refineTile(ListedTile tile) {
     Nearest nearest = Nearest(FIELD_NONE, 1e30);
     // The texel itself, then its neighbours along the axes.
     considerAt(own, point, sheetHalf, nearest);
-    bool isKeyed = (apron[own] & FIELD_ID_KEYED) != 0u;
+    bool isKeyed = isKey(apron[own]);
     for (int step = 1; step < APRON * APRON * APRON && !isKeyed; step *= APRON) {
       considerAt(own - step, point, sheetHalf, nearest);
       considerAt(own + step, point, sheetHalf, nearest);

@@ -26,8 +26,8 @@ void main() {
   uint key = FIELD_NONE;
   for (int i = 0; i < 8; ++i)
     key = min(key, keys[texelWord(cascade, coarse * COARSE + ivec3(i & 1, i >> 1 & 1, i >> 2))]);
-  bool isTouched = key != FIELD_NONE && rankTexelsOfKey(key) <= TOUCHED_TEXELS;
-  seeds[coarseWord(cascade, coarse)] = isTouched ? triangleOfKey(key) : FIELD_NONE;
+  bool isTouched = isKey(key) && rankTexelsOfKey(key) <= TOUCHED_TEXELS;
+  seeds[coarseWord(cascade, coarse)] = isTouched ? triangleOfWord(key) : FIELD_NONE;
   if (isTouched) atomicOr(found[gl_LocalInvocationIndex >> 5u], 1u << (gl_LocalInvocationIndex & 31u));
   barrier();
   if (gl_LocalInvocationIndex == 0u) tiles[tile.word].found.xy = uvec2(found[0], found[1]);

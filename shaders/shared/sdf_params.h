@@ -10,7 +10,8 @@ struct SdfInstance {
   vec4 worldFromGrid[3];
   vec4 boxMin; // grid space; w: largest metres of world that one voxel spans
   vec4 boxMax; // grid space; w: smallest metres of world that one voxel spans
-  ivec4 ids;   // x: node; y: first row in the level table; z: levels; w: SDF_* flags
+  ivec4
+      ids; // x: node; y: first row in the level table; z: levels; w: SDF_* flags, the field's number << SDF_FIELD_SHIFT
 };
 SHARED_ASSERT_SIZE(SdfInstance, 144)
 
@@ -30,6 +31,7 @@ struct SdfLook {
 SHARED_ASSERT_SIZE(SdfLook, 64)
 
 SHARED_CONST uint SDF_DOUBLE_SIDED = 1;
+SHARED_CONST uint SDF_FIELD_SHIFT = 8;
 
 struct SdfLevel {
   uvec4 cells; // x: first indirection cell; y, z, w: bricks along each axis

@@ -74,8 +74,6 @@ struct FieldTile {
 SHARED_ASSERT_SIZE(FieldTile, 32)
 
 SHARED_CONST uint FIELD_NONE = 0xffffffffu; // no triangle; no key
-// In a texel's nearest triangle: it is from a key; else field_refine asks the neighbours for theirs.
-SHARED_CONST uint FIELD_ID_KEYED = 0x80000000u;
 // A texel's node: number + 1, 0 where nothing is in range; and whether it lies inside a closed mesh.
 SHARED_CONST uint FIELD_NODE_INSIDE = 0x80000000u;
 SHARED_CONST uint FIELD_NODE_MASK = 0x0fffffffu;
@@ -100,6 +98,34 @@ SHARED_CONST uint SPLAT_PART_TEXELS = 16;
 SHARED_CONST uint SPLAT_WHOLE = 0x8000; // in place of a part: the triangle whole
 SHARED_CONST uint SPLAT_CASCADE_SHIFT = 16;
 SHARED_CONST uint SPLAT_PART_CAPACITY = 65536;
+
+// What the field's passes ask first of an SDF instance; rows stand in the order of instances.
+struct FieldObjectRow {
+  vec4 sphere;              // around it, anchored; w: radius
+  vec4 gridFromAnchored[3]; // xyz: rows of the linear part; w: a coordinate each of where the grid's origin lies,
+                            // anchored
+  vec4 boxMin, boxMax;      // as of SdfInstance
+  vec4 points;     // xyz: first of the nearest points around its field, grid space; w: their cells' longest side
+  vec4 pointCell;  // xyz: a cell, grid voxels; w: of its sides' squares the two larger, over eight
+  vec4 pointBlock; // xyz: where the first lies in the texture, texels; w: the grid's diagonal, grid voxels
+  ivec4 ids;
+};
+SHARED_ASSERT_SIZE(FieldObjectRow, 160)
+
+// An SDF object that is to be searched for a texel; then what the texel is to hold.
+struct FieldSearch {
+  uint texel;   // its word in the buffers of a word a texel; FIELD_NONE: one more of another row's
+  uint object;  // number of the instance
+  uint more;    // row of the next one of the texel, or FIELD_NONE; then the node's word
+  float metres; // distance so far
+};
+SHARED_ASSERT_SIZE(FieldSearch, 16)
+
+// The grid of nearest surface points around an SDF object's field: points along each side, and how far it reaches
+// beyond the field's box, of that box's longest side.
+SHARED_CONST uint NEAREST_POINTS = 32;
+SHARED_CONST float NEAREST_POINT_MARGIN = 0.75;
+SHARED_CONST uint NEAREST_POINT_BLOCKS = 16; // a row of their texture, and rows of a layer
 
 SHARED_END
 

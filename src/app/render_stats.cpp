@@ -225,12 +225,14 @@ Json fieldJson(const FieldStats& field) {
                      {"candidates", field.candidateTiles},
                      {"values", field.valueTiles}};
   const FieldStats::Bytes& bytes = field.bytes;
-  json["bytes"] = {{"all", bytes.triangles + bytes.hierarchy + bytes.distances + bytes.nodes + bytes.work},
-                   {"triangles", bytes.triangles},
-                   {"hierarchy", bytes.hierarchy},
-                   {"distances", bytes.distances},
-                   {"nodes", bytes.nodes},
-                   {"work", bytes.work}};
+  json["bytes"] = {
+      {"all", bytes.triangles + bytes.hierarchy + bytes.distances + bytes.nodes + bytes.objects + bytes.work},
+      {"triangles", bytes.triangles},
+      {"hierarchy", bytes.hierarchy},
+      {"distances", bytes.distances},
+      {"nodes", bytes.nodes},
+      {"objects", bytes.objects},
+      {"work", bytes.work}};
   return json;
 }
 

@@ -29,7 +29,8 @@ struct FieldStats {
     std::size_t hierarchy = 0; ///< of rtsdf
     std::size_t distances = 0; ///< volumes that are read
     std::size_t nodes = 0;
-    std::size_t work = 0; ///< everything else of the method
+    std::size_t objects = 0; ///< nearest points around the fields of SDF objects
+    std::size_t work = 0;    ///< everything else of the method
   } bytes;
 };
 

@@ -94,6 +94,7 @@ BrickAtlas::FieldId BrickAtlas::add(const BrickField& field) {
   HeldField held;
   held.resident.levelCount = static_cast<std::uint32_t>(field.levels.size());
   held.resident.firstLevel = levelRows_.allocate(held.resident.levelCount);
+  held.resident.number = numbers_.allocate(1);
   held.resident.voxelSizeObject = field.levels[0].voxelSizeObject;
   held.resident.originObject = field.originObject;
   held.resident.boundsObject = field.boundsObject;
@@ -118,6 +119,7 @@ void BrickAtlas::remove(FieldId id) {
     cells_.release(level.attributeCells.first, level.attributeCells.count);
   }
   levelRows_.release(found->second.resident.firstLevel, found->second.resident.levelCount);
+  numbers_.release(found->second.resident.number, 1);
   fields_.erase(found);
 }
 
@@ -125,6 +127,12 @@ const ResidentField& BrickAtlas::field(FieldId id) const {
   const auto found = fields_.find(id);
   if (found == fields_.end()) throw Failure("brick atlas: no such field");
   return found->second.resident;
+}
+
+std::vector<BrickAtlas::FieldId> BrickAtlas::fieldIds() const {
+  std::vector<FieldId> ids;
+  for (const auto& [id, held] : fields_) ids.push_back(id);
+  return ids;
 }
 
 void BrickAtlas::bind() const {

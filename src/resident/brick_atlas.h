@@ -17,6 +17,7 @@ namespace brickfield {
 struct ResidentField {
   std::uint32_t firstLevel = 0; ///< row of the level table
   std::uint32_t levelCount = 0;
+  std::uint32_t number = 0;  ///< small, and no other resident field's
   float voxelSizeObject = 0; ///< of the finest level
   glm::vec3 originObject{0};
   Box boundsObject;
@@ -35,6 +36,9 @@ public:
   /// Frees the field's slots, cells and rows; instances must not refer to it any more.
   void remove(FieldId id);
   const ResidentField& field(FieldId id) const;
+  /// Of all fields, in no order that counts.
+  std::vector<FieldId> fieldIds() const;
+  std::uint32_t numbersEnd() const { return numbers_.end(); } ///< no field's number is as large
 
   /// Binds textures, level table and indirection for the programs that include lib/bricks.glsl.
   void bind() const;
@@ -63,7 +67,7 @@ private:
 
   BrickPool distances8_, distances16_, attributes_;
   Buffer levelTable_, indirection_;
-  RangeAllocator levelRows_, cells_;
+  RangeAllocator levelRows_, cells_, numbers_;
   std::unordered_map<FieldId, HeldField> fields_;
   FieldId nextId_ = 1;
   int depth8_ = 0, depth16_ = 0; ///< of the pools, as the rows know them

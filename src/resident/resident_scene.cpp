@@ -71,7 +71,7 @@ std::optional<shared::SdfInstance> sdfInstanceOf(const PosedInstance& instance, 
   row.boxMax = glm::vec4((field.boundsObject.max - field.originObject) / field.voxelSizeObject,
                          scaleRange(glm::mat4(worldFromGrid)).x);
   row.ids = {instance.node, static_cast<int>(field.firstLevel), static_cast<int>(field.levelCount),
-             static_cast<int>(doubleSided ? shared::SDF_DOUBLE_SIDED : 0u)};
+             static_cast<int>((doubleSided ? shared::SDF_DOUBLE_SIDED : 0u) | field.number << shared::SDF_FIELD_SHIFT)};
   return row;
 }
 

@@ -13,6 +13,7 @@ namespace brickfield {
 namespace {
 
 constexpr float kSheetHalfTexels = 0.5f;
+constexpr std::size_t kLeastSearches = std::size_t{1} << 18;
 constexpr int kLeastKeyDistanceBits = 6; // steps of 1/28 texel: what they confuse, the evaluation rounds sort out
 
 std::size_t texelsOf(const FieldWindow& window) {
@@ -28,7 +29,7 @@ ExactField::ExactField()
     : params_("field_params", sizeof(shared::FieldParams)),
       splats_("field_splats", sizeof(shared::FieldSplat)),
       parts_("field_splat_parts", 16 + std::size_t{shared::SPLAT_PART_CAPACITY} * 8),
-      spheres_("field_spheres", 4096) {
+      objects_("field_objects", 4096) {
   for (std::size_t i = 0; i < kLists; ++i) lists_[i] = Buffer(kListLabels[i], 4096);
 }
 
@@ -42,7 +43,6 @@ bool ExactField::fit(const std::vector<FieldWindow>& windows) {
     throw Failure(fmt::format("world field: {} texels are more than can be numbered", texels));
   *this = ExactField();
   keys_ = Buffer("field_keys", words);
-  ids_ = Buffer("field_ids", words);
   nodes_ = Buffer("field_nodes", words);
   seeds_ = Buffer("field_seeds", words / 8);
   sweeps_ = Buffer("field_sweeps", words / 8);
@@ -53,6 +53,8 @@ bool ExactField::fit(const std::vector<FieldWindow>& windows) {
   sides_ = Buffer("field_sides", tileWords);
   sides_.clear(shared::FIELD_SIDE_UNKNOWN);
   flips_ = Buffer("field_flips", 16 + tileWords);
+  searches_ = Buffer("field_searches", (kLeastSearches + texels / 8) * sizeof(shared::FieldSearch));
+  open_ = Buffer("field_open", 8 + 2 * tileWords);
   band_ = Buffer("field_band", 4 + tileWords);
   band_.clear(0);
   for (std::size_t i = 0; i < windows.size(); ++i) {
@@ -82,8 +84,8 @@ void ExactField::prepare(const std::vector<FieldWindow>& windows, const FieldWor
   splats_.growTo(work.splats.size() * sizeof(shared::FieldSplat));
   splats_.upload(0, work.splats);
   splatCount_ = static_cast<std::uint32_t>(work.splats.size());
-  spheres_.growTo(work.spheres.size() * sizeof(glm::vec4));
-  spheres_.upload(0, work.spheres);
+  objects_.growTo(work.objects.size() * sizeof(shared::FieldObjectRow));
+  objects_.upload(0, work.objects);
 
   // The largest number is never used: a key of ones alone is no key.
   const int triangleBits = std::bit_width(work.triangleCount);
@@ -103,7 +105,7 @@ void ExactField::prepare(const std::vector<FieldWindow>& windows, const FieldWor
     params.splatMax[i] = glm::ivec4(work.keyBounds[i].max, 0);
     firstTexel += static_cast<std::uint32_t>(texelsOf(window));
   }
-  params.counts = {windows.size(), triangleBits, work.spheres.size(), ++update_};
+  params.counts = {windows.size(), triangleBits, work.objects.size(), ++update_};
   params.coarse.x = firstTexel / 8;
   params.anchor = glm::vec4(work.anchorWorld, 0);
   params_.uploadValue(params);
@@ -113,8 +115,8 @@ std::size_t ExactField::bytes() const {
   std::size_t sum = 0;
   for (const Texture& texture : distances_) sum += texture.bytes();
   for (const Buffer& list : lists_) sum += list.bytes();
-  for (const Buffer* buffer : {&params_, &splats_, &parts_, &spheres_, &keys_, &ids_, &nodes_, &seeds_, &sweeps_,
-                               &candidates_, &tiles_, &sides_, &flips_, &band_})
+  for (const Buffer* buffer : {&params_, &splats_, &parts_, &objects_, &keys_, &nodes_, &seeds_, &sweeps_, &candidates_,
+                               &tiles_, &sides_, &flips_, &searches_, &open_, &band_})
     sum += buffer->bytes();
   return sum;
 }

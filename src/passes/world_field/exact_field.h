@@ -19,8 +19,8 @@ struct FieldWork {
   std::vector<TexelBox> keyBounds;        ///< a cascade: the box of all tiles.keys
   std::vector<shared::FieldSplat> splats; ///< triangles that may reach the tiles whose keys are made anew
   glm::dvec3 anchorWorld{0};
-  std::uint32_t triangleCount = 0; ///< numbers that may occur, for the coding of keys
-  std::vector<glm::vec4> spheres;  ///< around each SDF instance, anchored; w: radius
+  std::uint32_t triangleCount = 0;             ///< numbers that may occur, for the coding of keys
+  std::vector<shared::FieldObjectRow> objects; ///< a row each SDF instance
 };
 
 class ExactField {
@@ -53,9 +53,8 @@ public:
   void bindParams() const { params_.bindUniform(shared::kFieldUniformBinding); }
   void bindList(List list) const { lists_[static_cast<std::size_t>(list)].bindStorage(shared::kFieldListBinding); }
   void bindSplats() const { splats_.bindStorage(shared::kFieldListBinding); }
-  void bindSpheres() const { spheres_.bindStorage(shared::kFieldSphereBinding); }
+  void bindObjects() const { objects_.bindStorage(shared::kFieldObjectBinding); }
   void bindParts() const { parts_.bindStorage(shared::kFieldSplatBinding); }
-  void bindIds() const { ids_.bindStorage(shared::kFieldIdBinding); }
   void bindKeys() const { keys_.bindStorage(shared::kFieldKeyBinding); }
   void bindSeeds() const { seeds_.bindStorage(shared::kFieldSeedBinding); }
   void bindSweeps() const { sweeps_.bindStorage(shared::kFieldSweepBinding); }
@@ -65,7 +64,16 @@ public:
   void bindSides() const { sides_.bindStorage(shared::kFieldSideBinding); }
   /// Tiles whose side was another one before this update: the groups of a dispatch, their count, their words.
   const Buffer& flips() const { return flips_; }
-  void clearFlips() { flips_.clear(0, 0, 16); }
+  /// Texels for which SDF objects are to be searched, and the tiles in which they lie.
+  void bindSearches() const {
+    searches_.bindStorage(shared::kFieldSearchBinding);
+    open_.bindStorage(shared::kFieldOpenBinding);
+  }
+  /// Of what an update counts on the GPU.
+  void clearCounts() {
+    flips_.clear(0, 0, 16);
+    open_.clear(0, 0, 8);
+  }
   std::uint32_t tileCount() const { return static_cast<std::uint32_t>(tiles_.bytes() / sizeof(shared::FieldTile)); }
   const Buffer& band() const { return band_; } ///< a count, and the tiles of this update with texels near a surface
 
@@ -78,12 +86,13 @@ private:
   std::vector<Texture> distances_;
   std::array<Buffer, kLists> lists_;
   std::array<std::uint32_t, kLists> lengths_{};
-  Buffer params_, splats_, parts_, spheres_;
-  Buffer keys_, ids_, nodes_;          ///< a word a texel
+  Buffer params_, splats_, parts_, objects_;
+  Buffer keys_, nodes_;                ///< a word a texel
   Buffer seeds_, sweeps_, candidates_; ///< a word a coarse texel
   Buffer tiles_, band_;
   Buffer sides_; ///< a word a tile: FIELD_SIDE_*
   Buffer flips_;
+  Buffer searches_, open_; ///< rows of shared::FieldSearch; two counts and two words a tile
   std::uint32_t splatCount_ = 0, update_ = 0;
 };
 

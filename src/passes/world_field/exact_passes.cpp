@@ -29,7 +29,7 @@ void dispatchList(Program& program, std::uint32_t length) {
 void betweenDispatches() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); }
 
 // Of work whose number the GPU alone knows; each takes some until none is left.
-constexpr GLuint kPartGroups = 2048, kBandGroups = 4096;
+constexpr GLuint kPartGroups = 2048, kBandGroups = 4096, kSearchGroups = 4096;
 
 } // namespace
 
@@ -118,8 +118,10 @@ FieldResolvePass::FieldResolvePass(ShaderLibrary& shaders)
       sides_(loadCompute(shaders, "passes/field_sides.comp.glsl")),
       objects_(loadCompute(shaders, "passes/field_objects.comp.glsl")),
       objectsOfFlipped_(shaders.load(
-          {"field_objects_flipped", {{GL_COMPUTE_SHADER, "passes/field_objects.comp.glsl"}}, {{"FLIPPED", "1"}}, {}})) {
-}
+          {"field_objects_flipped", {{GL_COMPUTE_SHADER, "passes/field_objects.comp.glsl"}}, {{"FLIPPED", "1"}}, {}})),
+      search_(loadCompute(shaders, "passes/field_objects_search.comp.glsl")),
+      store_(loadCompute(shaders, "passes/field_objects_store.comp.glsl")),
+      nearestPoints_(shaders) {}
 
 PassDeclaration FieldResolvePass::declare() {
   return {"field_resolve",
@@ -143,14 +145,25 @@ void FieldResolvePass::joinObjects(const ExactField& field, const ResidentScene&
   glMemoryBarrier(kResults | GL_COMMAND_BARRIER_BIT);
   scene.atlas().bind();
   scene.bindSdfInstances();
-  field.bindSpheres();
+  field.bindObjects();
+  field.bindSearches();
   field.bindList(ExactField::List::Values);
+  objects_->use();
+  nearestPoints_.bind(*objects_);
   dispatchList(*objects_, field.lengthOf(ExactField::List::Values));
   field.flips().bindStorage(shared::kFieldFlipBinding);
   objectsOfFlipped_->use();
+  nearestPoints_.bind(*objectsOfFlipped_);
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, field.flips().id());
   glDispatchComputeIndirect(0);
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+  glMemoryBarrier(kResults);
+  search_->use();
+  nearestPoints_.bind(*search_);
+  glDispatchCompute(kSearchGroups, 1, 1);
+  betweenDispatches();
+  store_->use();
+  glDispatchCompute(kSearchGroups, 1, 1);
 }
 
 void FieldResolvePass::resolveBand(const ExactField& field) {
@@ -175,11 +188,14 @@ void FieldResolvePass::resolveBand(const ExactField& field) {
 
 void FieldResolvePass::record(ExactField& field, const Buffer& triangles, const ResidentScene& scene) {
   if (!field.hasWork()) return;
-  field.clearFlips();
+  if (scene.sdfInstanceCount() > 0) {
+    scene.atlas().bind();
+    nearestPoints_.fit(scene.atlas());
+  }
+  field.clearCounts();
   field.bindParams();
   triangles.bindStorage(shared::kWorldTriangleBinding);
   field.bindKeys();
-  field.bindIds();
   field.bindCandidates();
   field.bindTiles();
   field.bindNodes();

@@ -5,6 +5,7 @@
 #include "gpu/shader_library.h"
 #include "passes/pass.h"
 #include "passes/world_field/exact_field.h"
+#include "passes/world_field/nearest_points.h"
 #include "resident/resident_scene.h"
 
 namespace brickfield {
@@ -57,7 +58,9 @@ private:
   void makeSides(ExactField& field);
   void joinObjects(const ExactField& field, const ResidentScene& scene);
 
-  std::shared_ptr<Program> evaluate_, refine_, refineListed_, farValues_, far_, sides_, objects_, objectsOfFlipped_;
+  std::shared_ptr<Program> evaluate_, refine_, refineListed_, farValues_, far_, sides_, objects_, objectsOfFlipped_,
+      search_, store_;
+  NearestPoints nearestPoints_;
 };
 
 } // namespace brickfield

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "passes/world_field/nearest_points.h"
+
 namespace brickfield {
 
 namespace {
@@ -39,6 +41,26 @@ glm::vec4 sphereOf(const shared::SdfInstance& row, glm::dvec3 anchorWorld) {
   for (int corner = 0; corner < 4; ++corner) // the other four lie opposite
     radius = std::max(radius, glm::distance(center, anchoredOf(row, cornerOf(row, corner), anchorWorld)));
   return {center, 1.0001f * radius + 1e-6f * glm::length(center)};
+}
+
+shared::FieldObjectRow fieldRowOf(const shared::SdfInstance& row, glm::dvec3 anchorWorld) {
+  shared::FieldObjectRow result{};
+  result.sphere = sphereOf(row, anchorWorld);
+  for (int axis = 0; axis < 3; ++axis)
+    result.gridFromAnchored[axis] = glm::vec4(
+        glm::vec3(row.gridFromWorld[axis]), static_cast<float>(double{row.worldFromGrid[axis].w} - anchorWorld[axis]));
+  result.boxMin = row.boxMin;
+  result.boxMax = row.boxMax;
+  const PointGrid grid = pointGridOf(glm::vec3(row.boxMin), glm::vec3(row.boxMax),
+                                     static_cast<std::uint32_t>(row.ids.w) >> shared::SDF_FIELD_SHIFT);
+  const glm::vec3 cell = grid.cellGrid;
+  const float smallest = std::min({cell.x, cell.y, cell.z});
+  result.points = glm::vec4(grid.firstGrid, grid.longestSide());
+  result.pointCell = glm::vec4(cell, 0.125f * (glm::dot(cell, cell) - smallest * smallest));
+  result.pointBlock =
+      glm::vec4(glm::vec3(grid.firstTexel), glm::length(static_cast<float>(shared::NEAREST_POINTS - 1) * cell));
+  result.ids = row.ids;
+  return result;
 }
 
 bool meets(const Box& a, const Box& b) {
@@ -141,7 +163,8 @@ void WorldField::update(const WorldTriangles& triangles, const ResidentScene& sc
   work.splats = splatsFor(triangles, work.keyBounds, windows);
   work.anchorWorld = anchorWorld_;
   work.triangleCount = triangles.triangleCount();
-  for (const shared::SdfInstance& object : scene.sdfInstances()) work.spheres.push_back(sphereOf(object, anchorWorld_));
+  for (const shared::SdfInstance& object : scene.sdfInstances())
+    work.objects.push_back(fieldRowOf(object, anchorWorld_));
   exact_.prepare(windows, work);
 }
 

@@ -157,14 +157,24 @@ protected:
 };
 
 // The numbers that the field is to keep, with objects whose voxels are a quarter of a texel. No step shows where the
-// bricks end: a distance changes by at most a texel from one to the next, and what halves round.
+// bricks end: a distance changes by at most a texel from one to the next, what halves round, and what a search misses.
 TEST_F(SdfObjectsInField, AreExactAmongMeshes) {
   const MixtureError error = measure("mixture", makeMixture(), 128, 64);
   EXPECT_LE(error.rms, 0.01);
   EXPECT_LE(error.p999, 0.12);
   EXPECT_LE(error.wrongSigns, 1e-4);
   EXPECT_LE(error.farthestWrongSign, 0.05);
-  EXPECT_LE(error.largestStep, 1.07);
+  EXPECT_LE(error.largestStep, 1.2);
+}
+
+// Objects a dozen texels across, whose grids of nearest points are fine enough to be believed: most texels outside
+// their boxes search for nothing.
+TEST_F(SdfObjectsInField, AreExactWhereTheyAreSmall) {
+  const MixtureError error = measure("mixture, small", makeMixture(), 128, 32);
+  EXPECT_LE(error.rms, 0.01);
+  EXPECT_LE(error.p999, 0.12);
+  EXPECT_LE(error.wrongSigns, 1e-4);
+  EXPECT_LE(error.farthestWrongSign, 0.05);
 }
 
 // Voxels as large as texels: what is left are the bricks' own edges, rounded by up to a third of a voxel, and the bulge
@@ -195,8 +205,8 @@ TEST_F(SdfObjectsInField, AreExactUnderUnevenTransforms) {
     const bool isExtreme = affine.name.starts_with("non-uniform");
     EXPECT_LE(error.wrongSigns, isExtreme ? 1e-3 : 1e-4) << affine.name;
     EXPECT_LE(error.farthestWrongSign, isExtreme ? 0.4 : 0.1) << affine.name;
-    EXPECT_LE(error.rms, isExtreme ? 0.4 : 0.012) << affine.name;
-    EXPECT_LE(error.p999, isExtreme ? 2.5 : 0.12) << affine.name;
+    EXPECT_LE(error.rms, isExtreme ? 0.4 : 0.013) << affine.name;
+    EXPECT_LE(error.p999, isExtreme ? 2.5 : 0.17) << affine.name;
   }
 }
 
