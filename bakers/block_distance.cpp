@@ -20,24 +20,32 @@ constexpr float kHalfDiagonal = 0.8660254f; // of a cube
 constexpr float kHalfBrick = 0.5f * static_cast<float>(kBrickCells);
 constexpr float kPickSlackVoxels = 1e-3f; // over the rounding of distances up to some tens of voxels
 
-/// A triangle in voxels around the brick's centre.
+/// What is linear in a point, of a triangle in voxels around the brick's centre: its height over the plane, then how
+/// far it lies along each edge from the edge's anchor, then how far inwards of it.
+constexpr std::size_t kHeight = 0, kAlong = 1, kInward = 4, kForms = 7;
+
+/// A triangle by these forms, direction times point less offset, lane by lane.
 struct BlockFrame {
-  struct Edge {
-    std::array<float, 3> along, inward; ///< unit; along the edge, and away from it in the plane
-    float alongOffset, inwardOffset;    ///< of the anchor, from the brick's centre
-    float from, to;                     ///< ends, from the anchor
-  };
-  std::array<float, 3> normal;
-  float height; ///< of the plane over the brick's centre
-  std::array<Edge, 3> edges;
+  using Lanes = std::array<float, 8>;
+  Lanes x, y, z; ///< of the directions, unit
+  Lanes offset;
+  std::array<Lanes, kForms> steps; ///< a form: what it adds at the corners of a unit cube, from the lowest on
+  std::array<float, 3> from, to;   ///< an edge: its ends, from the anchor
 };
 
 using Frames = std::array<BlockFrame, kMostBlockTriangles + 3>; // the last four are made together
 
+/// 512 of each; heights if they are asked for.
+struct BlockResults {
+  float* distances;
+  std::uint32_t* nearest;
+  float* heights;
+};
+
 /// Places in the frames, for each of eight centres.
 struct EightPicks {
-  std::array<std::array<std::uint16_t, kMostBlockTriangles>, 8> places;
-  std::array<std::size_t, 8> counts{};
+  std::array<std::array<std::uint16_t, kMostBlockTriangles + 1>, 8> places; // one more is written than kept
+  std::array<std::size_t, 8> counts;
 
   std::span<const std::uint16_t> of(std::size_t center) const {
     return std::span(places[center]).first(counts[center]);
@@ -61,15 +69,16 @@ namespace avx2 {
 } // namespace
 
 void blockDistances(const BlockRequest& request, std::span<float, kBrickSampleCount> distances,
-                    std::span<std::uint32_t, kBrickSampleCount> nearest) {
+                    std::span<std::uint32_t, kBrickSampleCount> nearest, BlockHeights* heights) {
   Frames frames;
+  const BlockResults results{distances.data(), nearest.data(), heights ? heights->data() : nullptr};
 #if defined(__x86_64__)
   if (activeSimd() == SimdLevel::Avx2) {
-    avx2::measureBlock(request, frames.data(), distances.data(), nearest.data());
+    avx2::measureBlock(request, frames.data(), results);
     return;
   }
 #endif
-  portable::measureBlock(request, frames.data(), distances.data(), nearest.data());
+  portable::measureBlock(request, frames.data(), results);
 }
 
 } // namespace brickfield

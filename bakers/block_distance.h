@@ -31,10 +31,16 @@ struct BlockRequest {
   float most = 0;                         ///< voxels; farther samples get infinity and kNoTriangle
 };
 
+/// Where a sample's foot lies inside the closest triangle by more than kClearVoxels: its height over that, in voxels,
+/// counter-clockwise positive. Infinite elsewhere, and as near as that to the triangle's plane.
+using BlockHeights = std::span<float, kBrickSampleCount>;
+inline constexpr float kClearVoxels = 1e-4f; // above the error of a block
+
 /// Results are voxels and triangles of the wanted samples; others are left with anything.
 ///
+/// heights    if given
 /// proved by  tests/bake/bakers/band_bake_test.cpp
 void blockDistances(const BlockRequest& request, std::span<float, kBrickSampleCount> distances,
-                    std::span<std::uint32_t, kBrickSampleCount> nearest);
+                    std::span<std::uint32_t, kBrickSampleCount> nearest, BlockHeights* heights = nullptr);
 
 } // namespace brickfield

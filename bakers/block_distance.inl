@@ -31,42 +31,48 @@ WIDE_INLINE Double4 rootOf(Double4 v) {
 #endif
 }
 
-/// Four doubles to a member of four frames; gives them back as rounded.
-template <typename Member>
-WIDE_INLINE Double4 put(BlockFrame* frames, const Member& member, Double4 v) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto rounded = static_cast<float>(v[i]);
-    member(frames[i]) = rounded;
-    v[i] = static_cast<double>(rounded);
-  }
-  return v;
+/// Four doubles to a lane of four frames; gives them back as rounded.
+WIDE_INLINE Double4 put(BlockFrame* frames, BlockFrame::Lanes BlockFrame::*form, std::size_t lane, Double4 v) {
+  const Float4 rounded = __builtin_convertvector(v, Float4);
+  for (std::size_t i = 0; i < 4; ++i) (frames[i].*form)[lane] = rounded[i];
+  return __builtin_convertvector(rounded, Double4);
 }
-template <typename Member>
-WIDE_INLINE Vector4d put3(BlockFrame* frames, const Member& member, const Vector4d& v) {
-  const auto axis = [&](std::size_t k) {
-    return [&member, k](BlockFrame& frame) -> float& { return member(frame)[k]; };
-  };
-  return {put(frames, axis(0), v.x), put(frames, axis(1), v.y), put(frames, axis(2), v.z)};
+/// A form by its direction and a point where it is zero. The rounding of a direction turns it about that point, which
+/// is why the offset is taken along the rounded one.
+WIDE_INLINE void putForm(BlockFrame* frames, std::size_t lane, const Vector4d& direction, const Vector4d& zero) {
+  const Vector4d rounded{put(frames, &BlockFrame::x, lane, direction.x), put(frames, &BlockFrame::y, lane, direction.y),
+                         put(frames, &BlockFrame::z, lane, direction.z)};
+  put(frames, &BlockFrame::offset, lane, dotOf(zero, rounded));
 }
 
-/// Frames of four triangles from place `at` on. The rounding of a direction turns it about its anchor, which is why
-/// offsets are taken along the rounded ones.
+WIDE_INLINE void setSteps(BlockFrame& frame) {
+  for (std::size_t k = 0; k < kForms; ++k) {
+    const Wide steps = wide(frame.x[k]) * Wide{0, 1, 0, 1, 0, 1, 0, 1} +
+                       wide(frame.y[k]) * Wide{0, 0, 1, 1, 0, 0, 1, 1} +
+                       wide(frame.z[k]) * Wide{0, 0, 0, 0, 1, 1, 1, 1};
+    std::memcpy(&frame.steps[k], &steps, sizeof(steps));
+  }
+}
+
+/// Frames of four triangles from place `at` on.
 void setFrames(BlockFrame* frames, std::size_t at, const BlockRequest& request) {
+  const double oneOverVoxel = 1.0 / request.block.voxelSize;
+  const Double4 perVoxel = {oneOverVoxel, oneOverVoxel, oneOverVoxel, oneOverVoxel};
+  std::array<std::array<glm::dvec3, 3>, 4> points;
+  for (std::size_t i = 0; i < 4; ++i)
+    points[i] = request.soup->corners(request.triangles[std::min(at + i, request.triangles.size() - 1)]);
   Vector4d corners[3];
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto points = request.soup->corners(request.triangles[std::min(at + i, request.triangles.size() - 1)]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const glm::dvec3 p = (points[k] - request.block.center) / request.block.voxelSize;
-      corners[k].x[i] = p.x, corners[k].y[i] = p.y, corners[k].z[i] = p.z;
-    }
+  const glm::dvec3 center = request.block.center;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::dvec3 &a = points[0][k], &b = points[1][k], &c = points[2][k], &d = points[3][k];
+    corners[k] = times(perVoxel, {Double4{a.x, b.x, c.x, d.x} - center.x, Double4{a.y, b.y, c.y, d.y} - center.y,
+                                  Double4{a.z, b.z, c.z, d.z} - center.z});
   }
   frames += at;
   const Double4 one = {1, 1, 1, 1}, zero = {0, 0, 0, 0};
   const Vector4d areaNormal = crossOf(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
   const Vector4d normal = times(one / rootOf(dotOf(areaNormal, areaNormal)), areaNormal);
-  const Vector4d rounded = put3(frames, [](BlockFrame& f) -> auto& { return f.normal; }, normal);
-  const Vector4d foot = times(dotOf(corners[0], normal), normal);
-  put(frames, [](BlockFrame& f) -> float& { return f.height; }, dotOf(foot, rounded));
+  putForm(frames, kHeight, normal, times(dotOf(corners[0], normal), normal));
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector4d edge = minus(corners[(k + 1) % 3], corners[k]);
     const Double4 length = rootOf(dotOf(edge, edge));
@@ -75,42 +81,56 @@ void setFrames(BlockFrame* frames, std::size_t at, const BlockRequest& request) 
     anchor = anchor < zero ? zero : anchor;
     anchor = anchor > length ? length : anchor;
     const Vector4d anchored = plus(corners[k], times(anchor, along));
-    const Vector4d roundedAlong = put3(frames, [k](BlockFrame& f) -> auto& { return f.edges[k].along; }, along);
-    const Vector4d roundedInward = put3(frames, [k](BlockFrame& f) -> auto& { return f.edges[k].inward; }, inward);
-    put(frames, [k](BlockFrame& f) -> float& { return f.edges[k].alongOffset; }, dotOf(anchored, roundedAlong));
-    put(frames, [k](BlockFrame& f) -> float& { return f.edges[k].inwardOffset; }, dotOf(anchored, roundedInward));
-    put(frames, [k](BlockFrame& f) -> float& { return f.edges[k].from; }, zero - anchor);
-    put(frames, [k](BlockFrame& f) -> float& { return f.edges[k].to; }, length - anchor);
+    putForm(frames, kAlong + k, along, anchored);
+    putForm(frames, kInward + k, inward, anchored);
+    const Float4 from = __builtin_convertvector(zero - anchor, Float4),
+                 to = __builtin_convertvector(length - anchor, Float4);
+    for (std::size_t i = 0; i < 4; ++i) frames[i].from[k] = from[i], frames[i].to[k] = to[i];
   }
+  for (std::size_t i = 0; i < 4; ++i) setSteps(frames[i]);
 }
 
-WIDE_INLINE Wide alongOf(const Wide3& point, const std::array<float, 3>& direction, float offset) {
-  return point.x * wide(direction[0]) + point.y * wide(direction[1]) + point.z * wide(direction[2]) - wide(offset);
-}
+/// Eight points at the corners of a cube, or the centres of eight cubes.
+struct EightPoints {
+  glm::vec3 first; ///< the lowest
+  float step;
+};
 
-/// Squared distances of eight points to a triangle.
-WIDE_INLINE Wide frameDistancesSquared(const BlockFrame& frame, const Wide3& points) {
-  const Wide zero = wide(0.0f), height = alongOf(points, frame.normal, frame.height);
+/// Of eight points and a triangle: squared distances, heights over its plane, and how far their feet lie within it.
+struct FrameDistances {
+  Wide squared, height, inward;
+};
+/// The forms are taken at the first point together, a form a lane.
+WIDE_INLINE FrameDistances frameDistances(const BlockFrame& frame, const EightPoints& points) {
+  const Wide atFirst = wide(points.first.x) * wide(frame.x) + wide(points.first.y) * wide(frame.y) +
+                       wide(points.first.z) * wide(frame.z) - wide(frame.offset);
+  float firsts[8];
+  std::memcpy(firsts, &atFirst, sizeof(firsts));
+  const auto form = [&](std::size_t k) __attribute__((always_inline)) {
+    return wide(firsts[k]) + wide(points.step) * wide(frame.steps[k]);
+  };
+  const Wide zero = wide(0.0f), height = form(kHeight);
   Wide within = wide(HUGE_VALF), leastInward = wide(HUGE_VALF);
-  for (const BlockFrame::Edge& edge : frame.edges) {
-    const Wide t = alongOf(points, edge.along, edge.alongOffset), s = alongOf(points, edge.inward, edge.inwardOffset);
-    const Wide beyond = most(most(wide(edge.from) - t, t - wide(edge.to)), zero);
+#pragma GCC unroll 3
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Wide t = form(kAlong + k), s = form(kInward + k);
+    const Wide beyond = most(most(wide(frame.from[k]) - t, t - wide(frame.to[k])), zero);
     within = least(within, s * s + beyond * beyond);
     leastInward = least(leastInward, s);
   }
-  return height * height + (leastInward >= zero ? zero : within);
+  return {height * height + (leastInward >= zero ? zero : within), height, leastInward};
 }
 
-/// Corners of a cube of two samples' side, or centres that are so far apart.
-WIDE_INLINE Wide3 eightFrom(glm::vec3 first, float step) {
-  return {wide(first.x) + wide(step) * Wide{0, 1, 0, 1, 0, 1, 0, 1}, wide(first.y) + wide(step) * Wide{0, 0, 1, 1, 0, 0, 1, 1},
-          wide(first.z) + wide(step) * Wide{0, 0, 0, 0, 1, 1, 1, 1}};
+WIDE_INLINE float largestOf(Wide v) {
+  v = most(v, __builtin_shuffle(v, WideMask{4, 5, 6, 7, 0, 1, 2, 3}));
+  v = most(v, __builtin_shuffle(v, WideMask{2, 3, 0, 1, 6, 7, 4, 5}));
+  return most(v, __builtin_shuffle(v, WideMask{1, 0, 3, 2, 5, 4, 7, 6}))[0];
 }
 
 /// Eight cubes: of the eighths of a brick, or of the eights of an eighth.
 struct EightCubes {
-  glm::vec3 first;    ///< the lowest corner of the first cube
-  float apart, side;  ///< from one to the next, and along each
+  glm::vec3 first;   ///< the lowest corner of the first cube
+  float apart, side; ///< from one to the next, and along each
 };
 
 /// The frames of a list that may be closest to a point of each cube, and no farther than `most_`. No point of a cube is
@@ -124,9 +144,9 @@ WIDE_INLINE void pick(const BlockFrame* frames, std::size_t count, const PlaceOf
   Wide squares[kMostBlockTriangles];
   Wide nearest = wide(HUGE_VALF);
   WideMask nearestAt{};
-  const Wide3 centers = eightFrom(cubes.first + 0.5f * cubes.side, cubes.apart);
+  const EightPoints centers{cubes.first + 0.5f * cubes.side, cubes.apart};
   for (std::size_t i = 0; i < count; ++i) {
-    squares[i] = frameDistancesSquared(frames[placeOf(i)], centers);
+    squares[i] = frameDistances(frames[placeOf(i)], centers).squared;
     const auto at = static_cast<std::int32_t>(i);
     nearestAt = squares[i] < nearest ? WideMask{at, at, at, at, at, at, at, at} : nearestAt;
     nearest = least(nearest, squares[i]);
@@ -134,46 +154,65 @@ WIDE_INLINE void pick(const BlockFrame* frames, std::size_t count, const PlaceOf
   Wide farthestCorners{};
   for (int lane = 0; lane < 8 && count > 0; ++lane) {
     const glm::vec3 corner = cubes.first + cubes.apart * glm::vec3(lane & 1, lane >> 1 & 1, lane >> 2);
-    const Wide ofCorners = frameDistancesSquared(frames[placeOf(static_cast<std::size_t>(nearestAt[lane]))],
-                                                 eightFrom(corner, cubes.side));
-    float farthest = ofCorners[0];
-    for (int i = 1; i < 8; ++i) farthest = std::max(farthest, ofCorners[i]);
-    farthestCorners[lane] = farthest;
+    const BlockFrame& nearestFrame = frames[placeOf(static_cast<std::size_t>(nearestAt[lane]))];
+    const Wide ofCorners = frameDistances(nearestFrame, {corner, cubes.side}).squared;
+    farthestCorners[lane] = largestOf(ofCorners);
   }
   const float radius = kHalfDiagonal * cubes.side;
   const Wide reach = least(rootOf(farthestCorners), wide(most_)) + wide(radius + kPickSlackVoxels);
   const Wide reachSquared = reach * reach;
-  picks.counts.fill(0);
-  for (std::size_t i = 0; i < count; ++i)
-    for (unsigned within = bitsOf(squares[i] <= reachSquared); within != 0; within &= within - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(within));
-      picks.places[lane][picks.counts[lane]++] = static_cast<std::uint16_t>(placeOf(i));
+  std::array<std::size_t, 8> counts{};
+  for (std::size_t i = 0; i < count; ++i) {
+    // Written to every list and kept in those that it belongs to: no branch to guess.
+    const unsigned within = bitsOf(squares[i] <= reachSquared);
+    const auto place = static_cast<std::uint16_t>(placeOf(i));
+#pragma GCC unroll 8
+    for (std::size_t lane = 0; lane < 8; ++lane) {
+      picks.places[lane][counts[lane]] = place;
+      counts[lane] += within >> lane & 1;
     }
+  }
+  picks.counts = counts;
+}
+
+/// A lane a sample of 2^3.
+WIDE_INLINE std::array<std::size_t, 8> samplesFrom(glm::ivec3 first) {
+  std::array<std::size_t, 8> samples;
+  for (std::size_t i = 0; i < 8; ++i)
+    samples[i] = sampleIndex(first) + (i & 1) + kBrickSamples * (i >> 1 & 1) + kBrickSamples * kBrickSamples * (i >> 2);
+  return samples;
 }
 
 /// The 2^3 samples from a sample on.
-WIDE_INLINE void measureEight(const BlockRequest& request, const BlockFrame* frames, std::span<const std::uint16_t> picked,
-                              glm::ivec3 first, float* distances, std::uint32_t* nearest) {
-  const Wide3 points = eightFrom(glm::vec3(first) - kHalfBrick, 1.0f);
-  Wide best = wide(request.most * request.most);
+template <bool kWithHeights>
+WIDE_INLINE void measureEight(const BlockRequest& request, const BlockFrame* frames,
+                              std::span<const std::uint16_t> picked, glm::ivec3 first, const BlockResults& results) {
+  const EightPoints points{glm::vec3(first) - kHalfBrick, 1.0f};
+  Wide best = wide(request.most * request.most), height = wide(HUGE_VALF), inward = wide(0.0f);
   WideMask bestPlace{-1, -1, -1, -1, -1, -1, -1, -1};
   for (const std::uint16_t place : picked) {
-    const Wide squared = frameDistancesSquared(frames[place], points);
-    const WideMask isNearer = squared < best;
+    const FrameDistances found = frameDistances(frames[place], points);
+    const WideMask isNearer = found.squared < best;
     const std::int32_t p = place;
-    best = least(squared, best);
+    best = least(found.squared, best);
     bestPlace = isNearer ? WideMask{p, p, p, p, p, p, p, p} : bestPlace;
+    if constexpr (kWithHeights) height = isNearer ? found.height : height, inward = isNearer ? found.inward : inward;
   }
   best = rootOf(best);
-  float roots[8];
+  float roots[8], heights[8];
   std::int32_t places[8];
   std::memcpy(roots, &best, sizeof(roots));
   std::memcpy(places, &bestPlace, sizeof(places));
-  const std::size_t at = sampleIndex(first);
+  const std::array<std::size_t, 8> samples = samplesFrom(first);
   for (std::size_t i = 0; i < 8; ++i) {
-    const std::size_t to = at + (i & 1) + kBrickSamples * (i >> 1 & 1) + kBrickSamples * kBrickSamples * (i >> 2);
-    distances[to] = places[i] < 0 ? HUGE_VALF : roots[i];
-    nearest[to] = places[i] < 0 ? kNoTriangle : request.triangles[static_cast<std::size_t>(places[i])];
+    results.distances[samples[i]] = places[i] < 0 ? HUGE_VALF : roots[i];
+    results.nearest[samples[i]] = places[i] < 0 ? kNoTriangle : request.triangles[static_cast<std::size_t>(places[i])];
+  }
+  if constexpr (kWithHeights) {
+    const WideMask isClear = (inward > wide(kClearVoxels)) & (most(height, wide(0.0f) - height) > wide(kClearVoxels));
+    height = isClear ? height : wide(HUGE_VALF);
+    std::memcpy(heights, &height, sizeof(heights));
+    for (std::size_t i = 0; i < 8; ++i) results.heights[samples[i]] = heights[i];
   }
 }
 
@@ -184,7 +223,7 @@ bool isAnyWanted(const BlockRequest& request, glm::ivec3 first) {
   return false;
 }
 
-void measureBlock(const BlockRequest& request, BlockFrame* frames, float* distances, std::uint32_t* nearest) {
+void measureBlock(const BlockRequest& request, BlockFrame* frames, const BlockResults& results) {
   const std::size_t count = request.triangles.size();
   for (std::size_t i = 0; i < count; i += 4) setFrames(frames, i, request);
   EightPicks ofEighths, ofEights;
@@ -194,12 +233,17 @@ void measureBlock(const BlockRequest& request, BlockFrame* frames, float* distan
     const auto e = static_cast<int>(eighth);
     const glm::ivec3 origin = 4 * glm::ivec3(e & 1, e >> 1 & 1, e >> 2);
     const std::span<const std::uint16_t> here = ofEighths.of(eighth);
-    pick(frames, here.size(), [here](std::size_t i) { return here[i]; },
-         {glm::vec3(origin) - kHalfBrick, 2.0f, 1.0f}, request.most, ofEights);
+    pick(
+        frames, here.size(), [here](std::size_t i) { return here[i]; }, {glm::vec3(origin) - kHalfBrick, 2.0f, 1.0f},
+        request.most, ofEights);
     for (std::size_t eight = 0; eight < 8; ++eight) {
       const auto s = static_cast<int>(eight);
       const glm::ivec3 first = origin + 2 * glm::ivec3(s & 1, s >> 1 & 1, s >> 2);
-      if (isAnyWanted(request, first)) measureEight(request, frames, ofEights.of(eight), first, distances, nearest);
+      if (!isAnyWanted(request, first)) continue;
+      if (results.heights)
+        measureEight<true>(request, frames, ofEights.of(eight), first, results);
+      else
+        measureEight<false>(request, frames, ofEights.of(eight), first, results);
     }
   }
 }

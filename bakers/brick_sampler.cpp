@@ -40,7 +40,7 @@ void SurfaceSampler::run(glm::ivec3 brick, const SampleRows& wanted, float* dist
 }
 
 double SurfaceSampler::capVoxels() const {
-  return kSampledRangeVoxels + (slabs ? SheetSlabs::depthOf(halfThickness) / grid.voxelSize : 0.0);
+  return kSampledRangeVoxels + (slabs ? slabs->mostReach(halfThickness) / grid.voxelSize : 0.0);
 }
 
 /// Voxels of what was found, or the range.
@@ -56,13 +56,19 @@ float SurfaceSampler::finish(glm::dvec3 point, NearestTriangle nearest) const {
 void SurfaceSampler::runFar(glm::ivec3 brick, const SampleRows& wanted, float* distances,
                             std::uint32_t* triangles) const {
   NearestTriangle nearest;
-  for (std::size_t i = 0; i < kSamples; ++i) {
-    if (!isWanted(wanted, i)) continue;
-    const bool isFirst = nearest.triangle == kNoTriangle;
-    const glm::dvec3 point = grid.sample(brick, sampleOfIndex(i));
-    if (isFirst) nearest = surface.nearest(point);
-    triangles[i] = nearest.triangle;
-    distances[i] = isFirst ? finish(point, nearest) : static_cast<float>(kSampledRangeVoxels);
+  for (std::size_t row = 0; row < wanted.size(); ++row) {
+    if (wanted[row] == 0) continue;
+    for (std::size_t i = kBrickSamples * row; i < kBrickSamples * (row + 1); ++i) {
+      if (!isWanted(wanted, i)) continue;
+      if (nearest.triangle == kNoTriangle) {
+        const glm::dvec3 point = grid.sample(brick, sampleOfIndex(i));
+        nearest = surface.nearest(point);
+        distances[i] = finish(point, nearest);
+      } else {
+        distances[i] = static_cast<float>(kSampledRangeVoxels);
+      }
+      triangles[i] = nearest.triangle;
+    }
   }
 }
 
@@ -78,20 +84,29 @@ bool SurfaceSampler::runBlock(glm::ivec3 brick, const SampleRows& wanted, float*
     return true;
   }
   std::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count));
-  std::array<float, kSamples> found;
+  std::array<float, kSamples> found, heights;
   std::array<std::uint32_t, kSamples> nearest;
+  BlockHeights heightsOf(heights);
   const std::span<const std::uint32_t> around(near.data(), count);
   const SampleBlock block{grid.brickCenter(brick), grid.voxelSize};
-  blockDistances({&surface.hierarchy().soup(), around, block, wanted, static_cast<float>(capVoxels())}, found, nearest);
+  blockDistances({&surface.hierarchy().soup(), around, block, wanted, static_cast<float>(capVoxels())}, found, nearest,
+                 slabs && !slabs->areAllCentred() ? &heightsOf : nullptr);
+  const double halfVoxels = halfThickness / grid.voxelSize;
   std::uint32_t last = near[0];
   for (std::size_t i = 0; i < kSamples; ++i) {
     if (!isWanted(wanted, i)) continue;
     if (nearest[i] != kNoTriangle) last = nearest[i];
     triangles[i] = last;
-    if (slabs)
-      distances[i] = finish(grid.sample(brick, sampleOfIndex(i)), {0.0, nearest[i]});
+    if (nearest[i] == kNoTriangle)
+      distances[i] = static_cast<float>(kSampledRangeVoxels);
+    else if (!slabs)
+      distances[i] = onOrOff(found[i]);
+    else if (!slabs->isBehind(nearest[i]))
+      distances[i] = static_cast<float>(slabs->centredDistance(nearest[i], static_cast<double>(found[i]), halfVoxels));
+    else if (std::isfinite(heights[i]))
+      distances[i] = static_cast<float>(slabs->distanceOver(nearest[i], static_cast<double>(heights[i]), halfVoxels));
     else
-      distances[i] = nearest[i] != kNoTriangle ? onOrOff(found[i]) : static_cast<float>(kSampledRangeVoxels);
+      distances[i] = finish(grid.sample(brick, sampleOfIndex(i)), {0.0, nearest[i]});
   }
   return true;
 }

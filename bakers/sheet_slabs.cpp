@@ -117,14 +117,27 @@ SheetSlabs::Side SheetSlabs::sideAt(const ClosestTriangle& closest) const {
   return {unitOr(own + normalOf(neighbour), own), false};
 }
 
+double SheetSlabs::centredDistance(std::uint32_t triangle, double distance, double halfThickness) const {
+  return distance - (triangle < soup_->firstPiece() ? 1.0 : pieceShare_) * halfThickness;
+}
+
+/// To a slab behind, off rims.
+double SheetSlabs::smoothDistance(bool isBefore, double distance, double halfThickness) {
+  const double middle = 0.5 * depthOf(halfThickness);
+  return isBefore ? distance : std::abs(distance - middle) - middle;
+}
+
+double SheetSlabs::distanceOver(std::uint32_t triangle, double height, double halfThickness) const {
+  return smoothDistance((height < 0) == isTurned_[triangle], std::abs(height), halfThickness);
+}
+
 double SheetSlabs::distance(glm::dvec3 point, const ClosestTriangle& closest, double halfThickness) const {
-  if (!isBehind_[closest.triangle])
-    return closest.distance - (closest.triangle < soup_->firstPiece() ? 1.0 : pieceShare_) * halfThickness;
+  if (!isBehind_[closest.triangle]) return centredDistance(closest.triangle, closest.distance, halfThickness);
   const double middle = 0.5 * depthOf(halfThickness);
   const Side side = sideAt(closest);
   const glm::dvec3 offset = point - closest.on.point;
   const double height = glm::dot(offset, side.normal);
-  if (!side.isRim) return height >= 0 ? closest.distance : std::abs(closest.distance - middle) - middle;
+  if (!side.isRim) return smoothDistance(height >= 0, closest.distance, halfThickness);
   const double width = (hasWideRim_[closest.triangle] ? 1.0 : 0.5) * halfThickness;
   const double beside = std::sqrt(std::max(0.0, glm::dot(offset, offset) - height * height)) - width;
   const double across = std::abs(height + middle) - middle;

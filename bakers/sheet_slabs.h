@@ -34,6 +34,8 @@ public:
   static double depthOf(double halfThickness) { return 1.56 * 2 * halfThickness; }
 
   bool areAllCentred() const { return neighbours_.empty(); }
+  /// How far from its triangle a slab reaches at most.
+  double mostReach(double halfThickness) const { return areAllCentred() ? halfThickness : depthOf(halfThickness); }
   bool isBehind(std::uint32_t triangle) const { return isBehind_[triangle]; }
 
   /// Signed distance to the slab of the closest triangle, negative inside. Exact for centred slabs and before the
@@ -43,6 +45,12 @@ public:
   /// halfThickness  soup space
   /// proved by tests/bake/bakers/bake_sheets_test.cpp
   double distance(glm::dvec3 point, const ClosestTriangle& closest, double halfThickness) const;
+  /// The same, of a slab that is centred, by the distance to its triangle in any unit.
+  double centredDistance(std::uint32_t triangle, double distance, double halfThickness) const;
+  /// The same, of a slab behind, where the point's foot lies inside the triangle.
+  ///
+  /// height  over the triangle, counter-clockwise positive, in any unit
+  double distanceOver(std::uint32_t triangle, double height, double halfThickness) const;
 
   /// Box of all slabs, in soup space.
   void growBounds(const std::vector<std::uint32_t>& sheets, double halfThickness, glm::dvec3& low,
@@ -54,6 +62,7 @@ private:
     glm::dvec3 normal{0.0}; ///< unit
     bool isRim = false;     ///< nothing goes on beyond it
   };
+  static double smoothDistance(bool isBefore, double distance, double halfThickness);
   Side sideAt(const ClosestTriangle& closest) const;
   glm::dvec3 normalOf(std::uint32_t triangle) const;
   void connect(const std::vector<std::uint32_t>& behind);

@@ -12,6 +12,11 @@ WIDE_INLINE Wide wide(const Float8& lanes) {
   std::memcpy(&result, &lanes, sizeof(result));
   return result;
 }
+WIDE_INLINE Wide wide(const std::array<float, 8>& lanes) {
+  Wide result;
+  std::memcpy(&result, lanes.data(), sizeof(result));
+  return result;
+}
 WIDE_INLINE Wide least(Wide a, Wide b) {
 #if defined(BRICKFIELD_AVX)
   return __builtin_ia32_minps256(a, b); // the same as below, which the compiler does not always see
