@@ -29,7 +29,7 @@ struct StripProduct {
 };
 struct NearField {
   glm::dvec3 slope{0.0}; ///< times 4 pi
-  double cubes = 0;
+  double squares = 0, cubes = 0;
   double slopeError = 0; ///< that the slope may be off by: so many times 8 * 2^-24
 };
 
@@ -48,6 +48,7 @@ namespace avx2 {
 #endif
 
 constexpr double kFourPi = 4.0 * std::numbers::pi;
+constexpr double kOverSums = 1 + 1e-5; // over the rounding of sums in floats
 constexpr double kMostFarSlack = 2e-3; // turns that a loop may be off by to count as far
 
 NearlyTurns turnsOf(const StripProduct& product) {
@@ -124,6 +125,7 @@ std::optional<WindingAround> NearRims::around(glm::dvec3 center, double radius) 
   const glm::dvec3 offset = center - center_;
   WindingAround around = far_;
   around.fraction = far_.at(offset);
+  around.most = glm::length(far_.slope) + far_.slopeSlack;
   if (!edges_.empty()) {
     StripProduct product;
     NearField field;
@@ -141,7 +143,8 @@ std::optional<WindingAround> NearRims::around(glm::dvec3 center, double radius) 
     const double slopeSlack = 2.0 * 8.0 * double{kRounding} * field.slopeError / (kFourPi * radius_);
     around.fraction += near.turns;
     around.slope += field.slope / (kFourPi * radius_);
-    around.bend = Rims::kFieldChange * (1 + 1e-5) * field.cubes / (kFourPi * radius_ * radius_);
+    around.bend = Rims::kFieldChange * kOverSums * field.cubes / (kFourPi * radius_ * radius_);
+    around.most += kOverSums * field.squares / (kFourPi * radius_);
     around.slack += near.slack + slopeSlack * radius;
     around.slopeSlack += slopeSlack;
   }

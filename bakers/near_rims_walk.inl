@@ -107,7 +107,7 @@ bool sumField(std::span<const NearRims::EdgeOct> edges, glm::vec3 direction_, gl
   const Wide3 direction = wide(direction_), origin = wide(point);
   const Wide zero = wide(0.0f), one = wide(1.0f), radius = wide(radius_);
   WideProduct all;
-  Wide roundings = zero, moved = zero, cubes = zero, slopeError = zero;
+  Wide roundings = zero, moved = zero, squares = zero, cubes = zero, slopeError = zero;
   Wide3 slope{zero, zero, zero};
   for (const NearRims::EdgeOct& oct : edges) {
     const Wide3 a = pointsFrom(oct, 0, origin), b = pointsFrom(oct, 1, origin);
@@ -122,6 +122,7 @@ bool sumField(std::span<const NearRims::EdgeOct> edges, glm::vec3 direction_, gl
     roundings += isEdge ? strip.roundings : zero;
     const Wide far = most(lengthA, lengthB) + one, oneOverAway = one / most(reach.away, wide(kLeastAway));
     moved += reach.slope * far;
+    squares += reach.slope;
     cubes += reach.slope * oneOverAway;
     const Wide lengths = lengthA * lengthB, straight = lengths + dotOf(a, b);
     const Wide oneOverStraight = one / most(straight, wide(1e-30f));
@@ -133,7 +134,7 @@ bool sumField(std::span<const NearRims::EdgeOct> edges, glm::vec3 direction_, gl
   all.store(product);
   product.roundings = sumOf(roundings), product.moved = sumOf(moved);
   field.slope = {sumOf(slope.x), sumOf(slope.y), sumOf(slope.z)};
-  field.cubes = sumOf(cubes), field.slopeError = sumOf(slopeError);
+  field.squares = sumOf(squares), field.cubes = sumOf(cubes), field.slopeError = sumOf(slopeError);
   return true;
 }
 

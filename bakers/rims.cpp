@@ -253,7 +253,10 @@ double Rims::fractionAt(glm::dvec3 point) const { return fractionOf(fanOf<false>
 
 WindingAround Rims::fractionAndSlopeAt(glm::dvec3 point) const {
   const FanSums sums = fanOf<true>(edges_, frame_, apex_, point);
-  return {fractionOf(sums), sums.slope / kFourPi, 0, 0, 0};
+  WindingAround around;
+  around.fraction = fractionOf(sums);
+  around.slope = sums.slope / kFourPi;
+  return around;
 }
 
 /// Of a loop's surface all points are at least so far from the ball: the solid angle is at most its area by the square
@@ -276,6 +279,7 @@ std::optional<WindingAround> Rims::around(glm::dvec3 center, double radius) cons
   around.fraction -= std::floor(around.fraction);
   around.slope = near.slope / kFourPi;
   around.bend = kFieldChange * near.inverseCubes / kFourPi;
+  around.most = near.inverseSquares / kFourPi + around.slopeSlack;
   around.slack += kSlackTurns;
   return around;
 }

@@ -4,6 +4,7 @@
 // turns across triangles, with the slope that Biot and Savart's law gives for a current along the rims.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -14,23 +15,28 @@
 
 namespace brickfield {
 
-/// How the winding number goes on around a point, where no triangle is crossed: d away it is fraction + slope.d to
-/// slack + bend d^2 / 2, and its slope is that to slopeSlack + bend d.
+/// How the winding number goes on around a point, in a ball, where no triangle is crossed: d away it is
+/// fraction + slope.d to slack + bend d^2 / 2, and its slope is that to slopeSlack + bend d, and no steeper than most.
 struct WindingAround {
   double fraction = 0;   ///< at the point, less some whole number: 0 to 1
   glm::dvec3 slope{0.0}; ///< turns per unit of soup space
   double bend = 0;
+  double most = HUGE_VAL;
   double slack = 0, slopeSlack = 0; ///< what far rims may add
 
   double at(glm::dvec3 offset) const { return fraction + glm::dot(slope, offset); }
   /// Of a ball at an offset: its points' numbers keep at least so far from one half and all whole turns more. Negative
   /// where they may not.
   double leastFromHalf(glm::dvec3 offset, double radius) const {
-    const double center = at(offset), far = glm::length(offset) + radius;
-    return std::abs(center - std::floor(center) - 0.5) - glm::length(slope) * radius - 0.5 * bend * far * far - slack;
+    const double far = glm::length(offset) + radius;
+    const double byLine = fromHalf(at(offset)) - glm::length(slope) * radius - 0.5 * bend * far * far;
+    return std::max(byLine, fromHalf(fraction) - most * far) - slack;
   }
   /// Slopes are no steeper so far away.
-  double steepest(double distance) const { return glm::length(slope) + bend * distance + slopeSlack; }
+  double steepest(double distance) const { return std::min(glm::length(slope) + bend * distance + slopeSlack, most); }
+
+private:
+  static double fromHalf(double turns) { return std::abs(turns - std::floor(turns) - 0.5); }
 };
 
 /// Sum of angles, as the number whose argument it is but for whole turns, and those.

@@ -33,6 +33,7 @@ glm::dvec3 inBall(glm::dvec3 direction, double radius) {
 
 struct Seen {
   int known = 0, sharp = 0, beside = 0;
+  int evenBySum = 0; ///< balls in which the sum of all edges' slopes is the better bound
 };
 
 /// Holds numbers, slopes and turns in balls against exact ones.
@@ -54,12 +55,14 @@ Seen look(const TriangleSoup& soup, double halfEdge, double ballRadius) {
         }
         EXPECT_LE(offWhole(around->fraction - exact), around->slack + 1e-12);
         ++seen.known;
+        seen.evenBySum += around->most < glm::length(around->slope) + around->bend * part * ballRadius;
         seen.sharp += around->slack < 5e-3 && turns.slack < 5e-3;
         for (const glm::dvec3 way : randomPoints(4, 0.57, 63)) {
           const glm::dvec3 offset = inBall(way, part * ballRadius), slope = winding.rims().slopeAt(place + offset);
           const double away = glm::length(offset), number = winding.exactlyAt(place + offset);
           EXPECT_LE(offWhole(number - around->at(offset)), around->slack + 0.5 * around->bend * away * away + 1e-12);
           EXPECT_LE(glm::length(slope - around->slope), around->slopeSlack + around->bend * away + 1e-9);
+          EXPECT_LE(glm::length(slope), around->steepest(away) + 1e-9);
           EXPECT_GE(offWhole(number - 0.5), around->leastFromHalf(glm::dvec3(0.0), part * ballRadius) - 1e-12);
         }
       }
@@ -73,6 +76,7 @@ TEST(NearRims, KeepToTheirSlack) {
   const Seen ofSquares = look(lattice().soup(), 0.9, 0.08);
   EXPECT_GT(ofSquares.known, 1000);
   EXPECT_GT(ofSquares.beside, 0);
+  EXPECT_GT(ofSquares.evenBySum, 50);
   EXPECT_GT(look(lattice(0.03f).soup(), 0.5, 0.02).known, 1000); // some far loops are on the ray
   for (const char* name : {"utah_teapot_1k.glb", "utah_teapot_2464.glb", "plane_holes_17k.glb"}) {
     BRICKFIELD_NEEDS_DATA(name);
