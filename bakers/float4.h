@@ -2,7 +2,10 @@
 // Structs of the hierarchy hold these members themselves, so that nothing is cast.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstring>
+#include <limits>
 
 #include <glm/glm.hpp>
 
@@ -30,6 +33,22 @@ struct Float8 {
 inline Float4 broadcast(float value) { return Float4{value, value, value, value}; }
 inline Float4 minimum(Float4 a, Float4 b) { return a < b ? a : b; }
 inline Float4 maximum(Float4 a, Float4 b) { return a > b ? a : b; }
+/// The least of some numbers, as many as a multiple of sixteen; several at once, which no compiler may do by itself.
+///
+/// of  what is made of four of them before
+template <typename Of>
+float leastOf(const float* numbers, std::size_t count, const Of& of) {
+  std::array<Float4, 4> least;
+  least.fill(broadcast(std::numeric_limits<float>::infinity()));
+  for (std::size_t i = 0; i < count; i += 16)
+    for (std::size_t k = 0; k < 4; ++k) {
+      Float4 four;
+      std::memcpy(&four, numbers + i + 4 * k, sizeof(four));
+      least[k] = minimum(least[k], of(four));
+    }
+  const Float4 four = minimum(minimum(least[0], least[1]), minimum(least[2], least[3]));
+  return std::min(std::min(four[0], four[1]), std::min(four[2], four[3]));
+}
 inline Float4 clampUnit(Float4 a) { return minimum(maximum(a, broadcast(0.0f)), broadcast(1.0f)); }
 
 /// Three coordinates of four points.

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "bakers/brick_sampler.h"
+#include "bakers/float4.h"
 
 namespace brickfield {
 
@@ -62,7 +63,7 @@ public:
     if (solid_) bound.voxels = std::max(0.0, solid_->nearest(point).distance / voxelSize - request_.solidGrowthVoxels);
     if (!sheets_) return bound;
     const SheetSlabs& slabs = *request_.surfaces->slabs;
-    const double reach = SheetSlabs::depthOf(request_.halfThickness);
+    const double reach = slabs.mostReach(request_.halfThickness);
     const NearestTriangle nearest = sheets_->nearest(point, bound.voxels * voxelSize + reach);
     if (nearest.triangle == kNoTriangle) return bound;
     const PointOnTriangle on = closestPointOnTriangle(point, request_.soup->corners(nearest.triangle));
@@ -253,11 +254,11 @@ private:
   float leastDistance(std::size_t slot) {
     const BrickPlaces samples = samplesAt(slot * kSamples);
     float least = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < kSamples; ++i) {
-      if (samples.solidDistances)
-        least = std::min(least, samples.solidDistances[i] - static_cast<float>(request_.solidGrowthVoxels));
-      if (samples.sheetDistances) least = std::min(least, std::abs(samples.sheetDistances[i]));
-    }
+    if (samples.solidDistances)
+      least = leastOf(samples.solidDistances, kSamples, [](Float4 v) { return v; }) -
+              static_cast<float>(request_.solidGrowthVoxels);
+    if (samples.sheetDistances)
+      least = std::min(least, leastOf(samples.sheetDistances, kSamples, [](Float4 v) { return maximum(v, -v); }));
     return least;
   }
 

@@ -377,9 +377,9 @@ HierarchyLeaf leafOf(const TriangleSoup& soup, const LargeVector<Item>& items, s
   HierarchyLeaf leaf;
   const std::size_t count = std::min(kHierarchyWidth, items.size() - begin);
   for (std::size_t i = 0; i < kHierarchyWidth; ++i) leaf.triangles[i] = items[begin + std::min(i, count - 1)].triangle;
-  std::sort(leaf.triangles.begin(), leaf.triangles.begin() + static_cast<std::ptrdiff_t>(count));
-  std::fill(leaf.triangles.begin() + static_cast<std::ptrdiff_t>(count), leaf.triangles.end(),
-            leaf.triangles[count - 1]);
+  const auto left = leaf.triangles.begin() + static_cast<std::ptrdiff_t>(count);
+  std::fill(left, leaf.triangles.end(), *std::max_element(leaf.triangles.begin(), left));
+  std::sort(leaf.triangles.begin(), leaf.triangles.end());
   for (std::size_t i = 0; i < kHierarchyWidth; ++i) setTriangle(leaf, i, soup.corners(leaf.triangles[i]));
   return leaf;
 }

@@ -96,6 +96,7 @@ private:
 };
 
 std::vector<SampleMask> patchesOf(const float* distances) {
+  if (areAllLinked(distances)) return {allSamplesMask()};
   const SampleLinks links(distances);
   std::vector<SampleMask> patches;
   SampleMask left = samplesOffSurface(distances);

@@ -38,6 +38,11 @@ SampleMask samplesOffSurface(const float* distances) {
   return mask;
 }
 
+bool areAllLinked(const float* distances) {
+  const float least = leastOf(distances, kBrickSampleCount, [](Float4 v) { return v; });
+  return 2.0f * least > 1.0f + kSegmentSlackVoxels; // along the axes, over which all are reached
+}
+
 std::size_t deepestOf(const SampleMask& samples, const float* distances) {
   auto deepest = static_cast<std::size_t>(kBrickSampleCount);
   forEachSample(samples, [&](std::size_t i) {

@@ -27,6 +27,15 @@ void forEachSample(const SampleMask& mask, const Visit& visit) {
 /// Samples that a triangle goes through: they have no side, and no neighbour can be told to lie on theirs.
 SampleMask samplesOffSurface(const float* distances);
 
+inline SampleMask allSamplesMask() {
+  SampleMask mask;
+  mask.fill(~std::uint64_t{0});
+  return mask;
+}
+
+/// Whether all are so far from triangles that each is linked to its neighbours.
+bool areAllLinked(const float* distances);
+
 /// Of some samples of a brick that with the largest distance, of several the first.
 std::size_t deepestOf(const SampleMask& samples, const float* distances);
 

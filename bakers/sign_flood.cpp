@@ -59,6 +59,13 @@ std::vector<PatchSign> signsByRegion(const PatchGraph& graph, const InsideTest& 
   return signs;
 }
 
+/// A byte of 0 or 1 for each of eight bits, the lowest first.
+std::uint64_t bytesOfBits(std::uint64_t bits) {
+  // Each byte gets all bits and keeps its own, which then carries into the byte's highest.
+  const std::uint64_t own = bits * 0x0101010101010101u & 0x8040201008040201u;
+  return (own + 0x7f7f7f7f7f7f7f7fu) >> 7 & 0x0101010101010101u;
+}
+
 /// Decides regions together and unsteady cells sample by sample.
 class SignFlood {
 public:
@@ -117,7 +124,10 @@ private:
             inside[i / 64] |= std::uint64_t{isInside} << (i % 64);
           });
       });
-      for (std::size_t i = 0; i < kSamples; ++i) sampleInside[i] = isIn(inside, i);
+      for (std::size_t row = 0; row < kSamples / 8; ++row) {
+        const std::uint64_t bytes = bytesOfBits(inside[row / 8] >> (8 * (row % 8)) & 0xffu);
+        for (std::size_t i = 0; i < 8; ++i) sampleInside[8 * row + i] = static_cast<std::uint8_t>(bytes >> (8 * i));
+      }
       return;
     }
     const SampleSigns asked = askSamples(level_.grid, brick, test_, &level_.solidDistances[b * kSamples]);
