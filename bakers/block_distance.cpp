@@ -52,19 +52,8 @@ struct EightPicks {
   }
 };
 
-namespace portable {
-#include "bakers/block_distance.inl"
-}
-#if defined(__x86_64__)
-#pragma GCC push_options
-#pragma GCC target("avx2")
-#define BRICKFIELD_AVX // g++ 12 lets the pragma define no macro
-namespace avx2 {
-#include "bakers/block_distance.inl"
-}
-#undef BRICKFIELD_AVX
-#pragma GCC pop_options
-#endif
+#define BRICKFIELD_SIMD_FILE "bakers/block_distance.inl"
+#include "bakers/each_simd.inl"
 
 } // namespace
 
@@ -72,12 +61,10 @@ void blockDistances(const BlockRequest& request, std::span<float, kBrickSampleCo
                     std::span<std::uint32_t, kBrickSampleCount> nearest, BlockHeights* heights) {
   Frames frames;
   const BlockResults results{distances.data(), nearest.data(), heights ? heights->data() : nullptr};
-#if defined(__x86_64__)
   if (activeSimd() == SimdLevel::Avx2) {
     avx2::measureBlock(request, frames.data(), results);
     return;
   }
-#endif
   portable::measureBlock(request, frames.data(), results);
 }
 

@@ -53,19 +53,8 @@ inline double distanceToTriangle(glm::dvec3 point, const std::array<glm::dvec3, 
   return std::sqrt(least);
 }
 
-namespace portable {
-#include "bakers/closest_walk.inl"
-}
-#if defined(__x86_64__)
-#pragma GCC push_options
-#pragma GCC target("avx2")
-#define BRICKFIELD_AVX // g++ 12 lets the pragma define no macro
-namespace avx2 {
-#include "bakers/closest_walk.inl"
-}
-#undef BRICKFIELD_AVX
-#pragma GCC pop_options
-#endif
+#define BRICKFIELD_SIMD_FILE "bakers/closest_walk.inl"
+#include "bakers/each_simd.inl"
 
 } // namespace
 
@@ -103,38 +92,30 @@ void LocalRoots::close(std::size_t childCount) {
 
 NearestTriangle MeshDistance::nearest(glm::dvec3 point, double maxDistance, std::uint32_t startLeaf) const {
   const std::span root(&hierarchy_->nodes()[hierarchy_->root().index()], 1);
-#if defined(__x86_64__)
-  if (activeSimd() == SimdLevel::Avx2) return avx2::walkToNearest(*hierarchy_, root, point, maxDistance, startLeaf);
-#endif
-  return portable::walkToNearest(*hierarchy_, root, point, maxDistance, startLeaf);
+  return activeSimd() == SimdLevel::Avx2 ? avx2::walkToNearest(*hierarchy_, root, point, maxDistance, startLeaf)
+                                         : portable::walkToNearest(*hierarchy_, root, point, maxDistance, startLeaf);
 }
 
 NearestTriangle MeshDistance::nearest(const LocalRoots& roots, glm::dvec3 point, double maxDistance,
                                       std::uint32_t startLeaf) const {
   const std::span<const HierarchyNode> nodes = std::span(roots.nodes).first(roots.count);
-#if defined(__x86_64__)
-  if (activeSimd() == SimdLevel::Avx2) return avx2::walkToNearest(*hierarchy_, nodes, point, maxDistance, startLeaf);
-#endif
-  return portable::walkToNearest(*hierarchy_, nodes, point, maxDistance, startLeaf);
+  return activeSimd() == SimdLevel::Avx2 ? avx2::walkToNearest(*hierarchy_, nodes, point, maxDistance, startLeaf)
+                                         : portable::walkToNearest(*hierarchy_, nodes, point, maxDistance, startLeaf);
 }
 
 LocalRoots MeshDistance::rootsAround(const CubeAround& cube) const {
   LocalRoots roots;
-#if defined(__x86_64__)
   if (activeSimd() == SimdLevel::Avx2) {
     avx2::walkToRoots(*hierarchy_, cube, roots);
     return roots;
   }
-#endif
   portable::walkToRoots(*hierarchy_, cube, roots);
   return roots;
 }
 
 std::size_t MeshDistance::collect(const CubeAround& cube, std::span<std::uint32_t> found) const {
-#if defined(__x86_64__)
-  if (activeSimd() == SimdLevel::Avx2) return avx2::walkAround(*hierarchy_, cube, found);
-#endif
-  return portable::walkAround(*hierarchy_, cube, found);
+  return activeSimd() == SimdLevel::Avx2 ? avx2::walkAround(*hierarchy_, cube, found)
+                                         : portable::walkAround(*hierarchy_, cube, found);
 }
 
 ClosestTriangle MeshDistance::closest(glm::dvec3 point, double maxDistance, std::uint32_t hint) const {

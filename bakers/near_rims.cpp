@@ -1,4 +1,4 @@
-// Sums stand in near_rims_walk.inl.
+// Sums stand in near_rim_sums.inl.
 #include "bakers/near_rims.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 constexpr float kRounding = 0x1p-24f;
 constexpr float kLeastAway = 1e-3f; // radii: nearer edges make floats of no use
 
-/// What walks over edges find, in radii.
+/// What sums over edges are, in radii.
 struct StripProduct {
   std::array<float, 8> real, imaginary; ///< lane by lane
   std::array<std::int32_t, 8> turns;    ///< and whole turns
@@ -33,19 +33,8 @@ struct NearField {
   double slopeError = 0; ///< that the slope may be off by: so many times 8 * 2^-24
 };
 
-namespace portable {
-#include "bakers/near_rims_walk.inl"
-}
-#if defined(__x86_64__)
-#pragma GCC push_options
-#pragma GCC target("avx2")
-#define BRICKFIELD_AVX // g++ 12 lets the pragma define no macro
-namespace avx2 {
-#include "bakers/near_rims_walk.inl"
-}
-#undef BRICKFIELD_AVX
-#pragma GCC pop_options
-#endif
+#define BRICKFIELD_SIMD_FILE "bakers/near_rim_sums.inl"
+#include "bakers/each_simd.inl"
 
 constexpr double kFourPi = 4.0 * std::numbers::pi;
 constexpr double kOverSums = 1 + 1e-5; // over the rounding of sums in floats
@@ -110,11 +99,9 @@ NearlyTurns NearRims::turnsAt(glm::dvec3 point) const {
   if (edges_.empty()) return nearly;
   StripProduct product;
   const glm::vec3 place(offset / radius_), direction(ray_.direction());
-#if defined(__x86_64__)
   if (activeSimd() == SimdLevel::Avx2)
     avx2::multiplyStrips(edges_, direction, place, product);
   else
-#endif
     portable::multiplyStrips(edges_, direction, place, product);
   if (!product.isClear) return {0, HUGE_VAL};
   const NearlyTurns near = turnsOf(product);
@@ -131,13 +118,9 @@ std::optional<WindingAround> NearRims::around(glm::dvec3 center, double radius) 
     NearField field;
     const glm::vec3 place(offset / radius_), direction(ray_.direction());
     const auto relativeRadius = static_cast<float>(radius / radius_);
-#if defined(__x86_64__)
     const bool isClear = activeSimd() == SimdLevel::Avx2
                              ? avx2::sumField(edges_, direction, place, relativeRadius, product, field)
                              : portable::sumField(edges_, direction, place, relativeRadius, product, field);
-#else
-    const bool isClear = portable::sumField(edges_, direction, place, relativeRadius, product, field);
-#endif
     if (!isClear) return std::nullopt;
     const NearlyTurns near = turnsOf(product);
     const double slopeSlack = 2.0 * 8.0 * double{kRounding} * field.slopeError / (kFourPi * radius_);

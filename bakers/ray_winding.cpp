@@ -49,19 +49,8 @@ int crossing(const TriangleSoup& soup, std::uint32_t triangle, const RayWinding:
   return turns;
 }
 
-namespace portable {
-#include "bakers/ray_walk.inl"
-}
-#if defined(__x86_64__)
-#pragma GCC push_options
-#pragma GCC target("avx2")
-#define BRICKFIELD_AVX // g++ 12 lets the pragma define no macro
-namespace avx2 {
-#include "bakers/ray_walk.inl"
-}
-#undef BRICKFIELD_AVX
-#pragma GCC pop_options
-#endif
+#define BRICKFIELD_SIMD_FILE "bakers/ray_walk.inl"
+#include "bakers/each_simd.inl"
 
 } // namespace
 
@@ -91,10 +80,7 @@ RayWinding::Ray RayWinding::rayFrom(glm::dvec3 point) const {
 }
 
 int RayWinding::crossings(const Ray& ray) const {
-#if defined(__x86_64__)
-  if (activeSimd() == SimdLevel::Avx2) return avx2::crossings(*hierarchy_, ray);
-#endif
-  return portable::crossings(*hierarchy_, ray);
+  return activeSimd() == SimdLevel::Avx2 ? avx2::crossings(*hierarchy_, ray) : portable::crossings(*hierarchy_, ray);
 }
 
 } // namespace brickfield

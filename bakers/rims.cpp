@@ -19,7 +19,7 @@ namespace brickfield {
 
 namespace {
 
-/// What walks over rim edges find.
+/// What sums over rim edges are.
 struct FanSums {
   std::array<double, 4> real, imaginary; ///< lane by lane
   glm::dvec3 slope{0.0};                 ///< times 4 pi
@@ -33,19 +33,8 @@ struct FieldSums {
   double inverseSquares = 0, inverseCubes = 0;
 };
 
-namespace portable {
-#include "bakers/rim_walk.inl"
-}
-#if defined(__x86_64__)
-#pragma GCC push_options
-#pragma GCC target("avx2")
-#define BRICKFIELD_AVX // g++ 12 lets the pragma define no macro
-namespace avx2 {
-#include "bakers/rim_walk.inl"
-}
-#undef BRICKFIELD_AVX
-#pragma GCC pop_options
-#endif
+#define BRICKFIELD_SIMD_FILE "bakers/rim_sums.inl"
+#include "bakers/each_simd.inl"
 
 constexpr double kFourPi = 4.0 * std::numbers::pi;
 constexpr double kSlackTurns = 1e-9; // over rounding
@@ -186,12 +175,10 @@ namespace {
 template <bool kWithSlope>
 FanSums fanOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, glm::dvec3 apex, glm::dvec3 point) {
   FanSums sums;
-#if defined(__x86_64__)
   if (activeSimd() == SimdLevel::Avx2) {
     avx2::multiplyFan<kWithSlope>(edges, frame, apex, point, sums);
     return sums;
   }
-#endif
   portable::multiplyFan<kWithSlope>(edges, frame, apex, point, sums);
   return sums;
 }
@@ -199,10 +186,8 @@ FanSums fanOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, g
 /// returns false where an edge comes into the ball
 bool addFieldOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, glm::dvec3 point, double radius,
                 FieldSums& sums) {
-#if defined(__x86_64__)
-  if (activeSimd() == SimdLevel::Avx2) return avx2::addField(edges, frame, point, radius, sums);
-#endif
-  return portable::addField(edges, frame, point, radius, sums);
+  return activeSimd() == SimdLevel::Avx2 ? avx2::addField(edges, frame, point, radius, sums)
+                                         : portable::addField(edges, frame, point, radius, sums);
 }
 
 } // namespace
@@ -210,10 +195,8 @@ bool addFieldOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame,
 namespace {
 
 StripSums stripsOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, const RayWinding::Ray& ray) {
-#if defined(__x86_64__)
-  if (activeSimd() == SimdLevel::Avx2) return avx2::multiplyStrips(edges, frame, ray);
-#endif
-  return portable::multiplyStrips(edges, frame, ray);
+  return activeSimd() == SimdLevel::Avx2 ? avx2::multiplyStrips(edges, frame, ray)
+                                         : portable::multiplyStrips(edges, frame, ray);
 }
 
 void add(AngleSum& sum, const StripSums& strips) {

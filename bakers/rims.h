@@ -103,7 +103,7 @@ public:
   /// cost      5 ns an edge; with many edges far ones count together
   /// proved by tests/bake/bakers/rims_test.cpp
   double mostChange(glm::dvec3 center, double radius) const;
-  /// Whether walks over each edge would cost more than winding numbers.
+  /// Whether sums over each edge would cost more than winding numbers.
   bool areMany() const { return edgeCount_ > kFewEdges; }
 
   /// Four edges from one point to the next, in metres of object space as meshes come; those that are missing at the end

@@ -43,19 +43,8 @@ constexpr auto kMonomialOf = [] {
   return monomialOf;
 }();
 
-namespace portable {
-#include "bakers/winding_walk.inl"
-}
-#if defined(__x86_64__)
-#pragma GCC push_options
-#pragma GCC target("avx2")
-#define BRICKFIELD_AVX // g++ 12 lets the pragma define no macro
-namespace avx2 {
-#include "bakers/winding_walk.inl"
-}
-#undef BRICKFIELD_AVX
-#pragma GCC pop_options
-#endif
+#define BRICKFIELD_SIMD_FILE "bakers/winding_walk.inl"
+#include "bakers/each_simd.inl"
 
 } // namespace
 
@@ -164,10 +153,8 @@ float WindingNumber::exactlyAt(glm::dvec3 point) const { return turns(point, kNo
 float WindingNumber::turns(glm::dvec3 point, float farRadii) const {
   const glm::vec3 p(point);
   const double whole = 4.0 * std::numbers::pi;
-#if defined(__x86_64__)
   if (activeSimd() == SimdLevel::Avx2)
     return static_cast<float>(avx2::solidAngle(*hierarchy_, moments_.data(), p, farRadii) / whole);
-#endif
   return static_cast<float>(portable::solidAngle(*hierarchy_, moments_.data(), p, farRadii) / whole);
 }
 
