@@ -11,8 +11,11 @@ namespace {
 
 // Leaves are slabs 1.05 voxels thick: seen aslant each is wider by that, on a shape that is nearly all border.
 constexpr double kLeastIou = 0.9;
-// From farther off along the axes a pixel is a voxel, and four of five wrong ones are too many; why was not found out.
-constexpr double kLeastIouAlongAxes = 0.88;
+// From farther off a pixel is nearly a voxel. The reference filters a mask over a square of the pixel's longest side on
+// the card, as trilinear filtering does, so cards seen edge on lose their border in it: from there its one ray a pixel
+// and the majority of 25 agree to 0.92 only. So the truth is what most of nine rays meet, whose squares are a third as
+// wide.
+constexpr unsigned kRaysAside = 3;
 
 class LeafCards : public GlTest {
 protected:
@@ -22,6 +25,36 @@ protected:
     const Fidelity fidelity = measureFidelity(scene, renderer->readLayers(), scene.reference(view));
     fmt::print("{}: {}\n", scene.scene().name, describe(fidelity));
     return fidelity;
+  }
+  /// Of what the renderer and most of nine rays of the reference hit.
+  double silhouetteIou(const TestScene& scene, glm::vec3 eye, glm::uvec2 sizePixels) {
+    const auto viewOf = [&](glm::uvec2 size) { return scene.view(eye, {0, 1500, 0}, size, 50); };
+    const auto renderer = scene.makeRenderer(context().info());
+    renderer->render(viewOf(sizePixels));
+    const std::vector<bool> found = hitsOf(renderer->readLayers(), sizePixels, 1);
+    const std::vector<bool> truth = hitsOf(scene.reference(viewOf(kRaysAside * sizePixels)), sizePixels, kRaysAside);
+    std::size_t both = 0, onlyFound = 0, onlyTruth = 0;
+    for (std::size_t p = 0; p < found.size(); ++p)
+      both += found[p] && truth[p], onlyFound += found[p] && !truth[p], onlyTruth += !found[p] && truth[p];
+    const double iou = static_cast<double>(both) / static_cast<double>(both + onlyFound + onlyTruth);
+    fmt::print("{}: IoU {:.4f}, {} pixels too many, {} too few\n", scene.scene().name, iou, onlyFound, onlyTruth);
+    return iou;
+  }
+
+private:
+  /// A pixel, of a picture of so many rays more along each side: whether most of its rays hit something.
+  static std::vector<bool> hitsOf(const FrameLayers& layers, glm::uvec2 sizePixels, unsigned raysAside) {
+    std::vector<bool> hits;
+    for (unsigned y = 0; y < sizePixels.y; ++y)
+      for (unsigned x = 0; x < sizePixels.x; ++x) {
+        unsigned count = 0;
+        for (unsigned i = 0; i < raysAside * raysAside; ++i) {
+          const std::size_t row = raysAside * y + i / raysAside, column = raysAside * x + i % raysAside;
+          count += layers.kind[row * raysAside * sizePixels.x + column] != SurfaceKind::None;
+        }
+        hits.push_back(2 * count > raysAside * raysAside);
+      }
+    return hits;
   }
 };
 
@@ -39,11 +72,11 @@ TEST_F(LeafCards, TreeAt256KeepsItsLeaves) {
   }
 }
 
-TEST_F(LeafCards, FromFarAlongTheAxesTheyAreThick) {
+TEST_F(LeafCards, FromFarAlongTheAxesTheyKeepTheirOutline) {
   BRICKFIELD_NEEDS_DATA("tree_leaf_cards.glb");
   const TestScene scene(dataFile("tree_leaf_cards.glb"), "all", 256);
   for (const glm::vec3 eye : {glm::vec3(300, 1700, 4200), glm::vec3(4200, 1700, -300), glm::vec3(300, 1700, -4200)})
-    EXPECT_GE(measure(scene, scene.view(eye, {0, 1500, 0}, {640, 640}, 50)).silhouetteIou, kLeastIouAlongAxes) << eye.x;
+    EXPECT_GE(silhouetteIou(scene, eye, {640, 640}), kLeastIou) << eye.x;
 }
 
 } // namespace
