@@ -2,7 +2,7 @@
 // goes first: most points see all of the light or none of it, a read a step. Where something first reaches into the
 // cone, narrow rays go on from there to parts of the light, a share of it each.
 //
-//        light            p: point, lifted off its surface by a grain, which fades out as the light climbs
+//        light            p: point, lifted off its surface by up to a grain, which fades out as the light climbs
 //      \  ---  /          t: first touched; from there on the rays
 //       \ | | /
 //        \|||/ ___ caster
@@ -11,9 +11,16 @@
 // A grain is what nothing in a reading is finer than: a texel of the field, a voxel of bricks.
 #include "lib/shadow_cone.glsl"
 
+// By whoever includes this, before: const bool ENDS_DARK, whether half of the rays may say that the others are blocked
+// too.
+
 const uint MOST_CONE_READS = 96u, MOST_RAY_READS = 64u;
 // Steps of 0.6 pass through some of the slabs that bricks hold for sheets.
 const float LIFT_GRAINS = 1.0, LEAST_STEP_GRAINS = 0.5;
+// A surface that is read as 0 is not thickened: higher than this, light passes over what is lower than a grain, which is
+// all that shades rough surfaces where the light grazes them. What is read deeper is a sheet, half a grain thick to each
+// side, and so is one whose middle lies between texels: the first reading is nearer than most of the lift.
+const float SOLID_LIFT_GRAINS = 0.25, SHEET_GRAINS = 0.1, LEAST_LIFTED = 0.8;
 // The lift fades by this part of what the light climbs over the surface, so that the way never sinks back into it, but
 // ends after so many grains.
 const float LIFT_FADE = 0.67, MOST_LIFT_FADE_GRAINS = 16.0;
@@ -26,6 +33,8 @@ const float RELAXED = 1.6;
 // Of a penumbra's radius for each ray: where steps are narrower than this none are seen, and sharing would only blur.
 const float SHARED_PIXELS = 1.0;
 const int LEAST_SURE_RAYS = 3;
+// Slower than this falls what is passed; and so far behind the front of a wall lies a sheet's middle.
+const float NEAR_GRAINS = 2.5, LEAST_FALL = 0.25, WITHIN_GRAINS = 0.5;
 const float FADE = 0.5; // of the distance between rays, about
 const float LEAD = 8.0; // see stepRay
 // Down from where the cone begins, in parts of the lift; and what is no more than this over the surface is the surface.
@@ -45,9 +54,8 @@ struct ShadowReading {
 };
 // By whoever includes this: from the field alone, or with bricks.
 //
-// fineMetres    what is told apart: distances beyond it are all the same but for steps
-// keepsObjects  only of those with bricks that the last reading was of, within fineMetres; much, where there are none
-ShadowReading readForShadow(vec3 pointAnchored, float fineMetres, bool keepsObjects);
+// keepsObjects  only of those with bricks that the last reading was of, within mostMetres; much, where there are none
+ShadowReading readForShadow(vec3 pointAnchored, float mostMetres, bool keepsObjects);
 
 // One march of many stages with one place where it reads: threads in different stages read together, and the program
 // stays small.
@@ -65,12 +73,12 @@ struct March {
   uint stage;
   uint reads;  // of the stage
   float t;     // metres along the axis
-  float grain; // of the lift
+  float lift;  // metres, before it fades
   float share; // what is seen of the light, once it is DONE
-  // CONE
+  // CONE, RAY
   float sure; // metres; free up to there
   float relaxed;
-  // DOWN, OUT
+  // DOWN, OUT; RAY: where and what the reading before was
   float above; // the surface, metres
   float ball;  // metres, and its grain: the cone's first reading, or the one before
   float ballGrain;
@@ -83,6 +91,7 @@ struct March {
   float pace;
   float free;   // how free the ray is where it is touched most
   float sum;
+  float fall;   // of the distance to what is ahead, metres a metre of the ray; 0: not known
 };
 
 // How far the cone goes on, and back (y), inside a ball around its axis that nothing reaches into.
@@ -109,8 +118,8 @@ void beginRay(inout March march, ShadowCone cone, int cell) {
   int first = (march.rays + 1) / 2;
   for (; march.ray < march.rays; ++march.ray) {
     int i = march.ray;
-    if (i == first && first >= LEAST_SURE_RAYS && march.sum == float(first)) {
-      finish(march, 1.0);
+    if (i == first && first >= LEAST_SURE_RAYS && (march.sum == float(first) || (ENDS_DARK && march.sum == 0.0))) {
+      finish(march, min(march.sum, 1.0));
       return;
     }
     int ray = i < first ? 2 * i : 2 * (i - first) + 1;
@@ -121,6 +130,8 @@ void beginRay(inout March march, ShadowCone cone, int cell) {
     march.free = clamp(0.5 + horizon / max(march.width, 1e-4), 0.0, 1.0);
     if (march.free > 0.0) {
       begin(march, RAY, march.start);
+      march.sure = march.start;
+      march.ball = 3.4e38;
       return;
     }
   }
@@ -142,11 +153,14 @@ void beginRays(inout March march, ShadowCone cone, float start, float softness, 
   march.start = start;
   march.ray = 0;
   march.sum = 0.0;
+  march.fall = 0.0;
   beginRay(march, cone, cell);
 }
 
 void stepGrain(inout March march, inout ShadowCone cone, ShadowReading reading) {
-  cone.grain = march.grain = reading.coarsestGrain;
+  cone.grain = reading.coarsestGrain;
+  bool isSolid = reading.grain == cone.grain && reading.distanceWorld > -SHEET_GRAINS * cone.grain;
+  march.lift = cone.lift = (isSolid ? SOLID_LIFT_GRAINS : LIFT_GRAINS) * cone.grain;
   if (cone.isRectangle) cone.end = min(cone.end, max(cone.lightAt - reading.grain, 0.0)); // there it begins
   begin(march, CONE, 0.0);
 }
@@ -170,12 +184,17 @@ void leaveSurface(inout March march, ShadowCone cone) {
     goOn(march, cone, march.ball, march.ballGrain);
 }
 
-void stepCone(inout March march, ShadowCone cone, ShadowReading reading, float softness, int cell) {
+void stepCone(inout March march, inout ShadowCone cone, ShadowReading reading, float softness, int cell) {
   float radius = cone.spread * march.t, ball = reading.distanceWorld, touch = max(radius, LEAST_WIDTH_GRAINS * reading.grain);
   if (march.reads == 1u) {
+    if (cone.lift < LIFT_GRAINS * cone.grain && ball < LEAST_LIFTED * cone.lift) {
+      march.lift = cone.lift = LIFT_GRAINS * cone.grain;
+      march.reads = 0u;
+      return;
+    }
     march.ball = ball;
     march.ballGrain = reading.grain;
-    march.above = LIFT_GRAINS * cone.grain - max(ball, LEAST_DOWN * LIFT_GRAINS * cone.grain);
+    march.above = cone.lift - max(ball, LEAST_DOWN * cone.lift);
     if (reading.grain < cone.grain && march.above >= OWN_SURFACE_GRAINS * reading.grain)
       begin(march, DOWN, 0.0);
     else
@@ -197,7 +216,7 @@ void stepCone(inout March march, ShadowCone cone, ShadowReading reading, float s
 }
 
 void stepDown(inout March march, ShadowCone cone, ShadowReading reading) {
-  march.above -= max(reading.distanceWorld, LEAST_DOWN * LIFT_GRAINS * cone.grain);
+  march.above -= max(reading.distanceWorld, LEAST_DOWN * cone.lift);
   if (reading.distanceWorld < 0.0)
     finish(march, 0.0);
   else if (march.reads >= MOST_DOWN_READS || march.above < OWN_SURFACE_GRAINS * march.ballGrain)
@@ -221,6 +240,27 @@ void stepOut(inout March march, ShadowCone cone, ShadowReading reading) {
 // Before the light itself the fade narrows, lest what holds a panel dims it.
 float fadeWidth(March march, ShadowCone cone) { return min(march.width * march.t, 0.5 * (cone.lightAt - march.t)); }
 
+// On by a ball that nothing reaches into, and by half a grain more: whatever the ray could enter there is deeper. Near
+// something that comes nearer steadily, as a wall does, at once to within it; rays to one light fall towards a wall at
+// one rate, so the next one jumps from its first reading on. Where nothing was met and the ball there does not reach
+// back, something may lie between: from what is sure on again.
+void stepOrJump(inout March march, ShadowCone cone, ShadowReading reading) {
+  float ball = reading.distanceWorld;
+  if (march.t - march.pace * ball > march.sure) {
+    march.t = march.sure;
+    march.fall = 0.0;
+    return;
+  }
+  float near = NEAR_GRAINS * reading.grain;
+  if (march.ball < near) march.fall = (march.ball - ball) * march.pace / max(march.t - march.above, 1e-6);
+  float on = ball + LEAST_STEP_GRAINS * reading.grain, way = on;
+  if (ball < near && march.fall > LEAST_FALL) way = max((ball + WITHIN_GRAINS * reading.grain) / march.fall, on);
+  march.ball = ball;
+  march.above = march.t;
+  march.sure = march.t + march.pace * on;
+  march.t = min(march.t + march.pace * way, cone.end);
+}
+
 // A ray is blocked at the surface; just outside it is free to LEAD / (1 + LEAD), for were it darker, all edges would move
 // outwards and gaps narrower than the fade go dark; few rays then show steps, which the sharing of pixels hides where
 // penumbrae are wide, and a small fade where they are narrow. The fade would go on inside, but sheets reach no depth: let
@@ -228,13 +268,13 @@ float fadeWidth(March march, ShadowCone cone) { return min(march.width * march.t
 void stepRay(inout March march, ShadowCone cone, ShadowReading reading, int cell) {
   float past = reading.distanceWorld - BLOCKED_GRAINS * reading.grain, width = fadeWidth(march, cone), lead = LEAD * width;
   march.free = min(march.free, (past + lead) / (max(width, LEAST_WIDTH_GRAINS * reading.grain) + lead));
-  march.t += march.pace * max(reading.distanceWorld, LEAST_STEP_GRAINS * reading.grain);
-  if (past <= 0.0)
+  if (past <= 0.0) {
     endRay(march, cone, 0.0, cell);
-  else if (march.t >= cone.end)
-    endRay(march, cone, march.free, cell);
-  else if (march.reads >= MOST_RAY_READS)
-    endRay(march, cone, 0.0, cell); // it creeps along a surface
+    return;
+  }
+  stepOrJump(march, cone, reading);
+  // Out of reads it creeps along a surface, which it would have met if it were not free.
+  if (march.sure >= cone.end || march.reads >= MOST_RAY_READS) endRay(march, cone, march.free, cell);
 }
 
 // What the way climbs over the surface makes up for the lift, metres.
@@ -244,7 +284,7 @@ float climbed(March march, ShadowCone cone) {
 
 // Where the march reads next.
 vec3 placeOf(March march, ShadowCone cone) {
-  float lift = max(LIFT_GRAINS * march.grain - climbed(march, cone), 0.0);
+  float lift = max(march.lift - climbed(march, cone), 0.0);
   if (march.stage == GRAIN) lift = 0.0;
   if (march.stage == DOWN) lift = march.above;
   return cone.origin + lift * cone.normal + march.t * (cone.axis + march.across);
@@ -252,9 +292,9 @@ vec3 placeOf(March march, ShadowCone cone) {
 
 // Where bricks end, or a cascade, the field begins to make the surface thicker than the lift: what lies in the way there
 // is asked once more, a coarser grain higher.
-bool isToBeRaised(March march, ShadowCone cone, ShadowReading reading, float fineMetres) {
-  bool isTouched = reading.distanceWorld < max(fineMetres, LEAST_WIDTH_GRAINS * reading.grain);
-  return march.stage >= OUT && isTouched && march.grain == cone.grain && reading.grain > cone.grain &&
+bool isToBeRaised(March march, ShadowCone cone, ShadowReading reading) {
+  bool isTouched = reading.distanceWorld < LEAST_WIDTH_GRAINS * reading.grain;
+  return march.stage >= OUT && isTouched && march.lift == cone.lift && reading.grain > cone.grain &&
          LIFT_GRAINS * reading.grain > climbed(march, cone);
 }
 
@@ -268,20 +308,18 @@ float shadowOf(ShadowCone cone, int rays, float softness, int cell) {
   if (dot(cone.normal, cone.axis) < -cone.spread) return 0.0; // behind the surface's horizon
   March march;
   march.across = vec3(0.0);
-  march.grain = 0.0;
+  march.lift = cone.lift = 0.0;
   march.sure = 0.0;
   march.relaxed = RELAXED;
   march.rays = rays;
   begin(march, GRAIN, 0.0);
   while (march.stage != DONE) {
-    float fine = march.stage == CONE ? cone.spread * march.t : march.stage == RAY ? fadeWidth(march, cone) : 0.0;
-    if (march.stage == DOWN) fine = LIFT_GRAINS * cone.grain;
-    ShadowReading reading = readForShadow(placeOf(march, cone), fine, march.stage == DOWN);
-    if (isToBeRaised(march, cone, reading, fine)) {
-      march.grain = reading.grain;
+    ShadowReading reading = readForShadow(placeOf(march, cone), cone.lift, march.stage == DOWN);
+    if (isToBeRaised(march, cone, reading)) {
+      march.lift = LIFT_GRAINS * reading.grain;
       continue;
     }
-    march.grain = cone.grain;
+    march.lift = cone.lift;
     ++march.reads;
     if (march.stage == RAY)
       stepRay(march, cone, reading, cell);

@@ -95,7 +95,7 @@ void joinObject(uint row, vec3 pointAnchored, float metres, float mostMetres, fl
   vec4 boxMin = sdfInstances[row].boxMin, boxMax = sdfInstances[row].boxMax;
   vec3 pointGrid = timesGridRows(row, pointAnchored - (gridOrigin - field.anchor.xyz)), q = clamp(pointGrid, boxMin.xyz, boxMax.xyz);
   float outer = distance(pointGrid, q), least = boxMax.w, most = boxMin.w;
-  if (least * outer > mostMetres + most) return;
+  if (least * outer > mostMetres + most || least * outer >= nearest.distanceWorld) return;
   ivec4 ids = sdfInstances[row].ids;
   vec2 read = readFineEnough(ids.y, ids.z, q, metres, least, fineMetres, nearest.reads);
   float lower = outer > 0.0 ? least * length(vec2(max(read.x, 0.0), outer)) : min(least * read.x, most * read.x);
@@ -114,8 +114,8 @@ void joinRows(vec3 pointAnchored, float metres, float mostMetres, float fineMetr
     for (uint row = rows.x & 0xffffffu; row < endOfRow(rows.x); ++row) joinObject(row, pointAnchored, metres, mostMetres, fineMetres, nearest);
 }
 
-bool isBesideSurface(FieldReading reading, float texel, float fineMetres) {
-  return reading.cascade >= 0 && abs(reading.distanceWorld) <= BRICKS_END_TEXELS * texel + fineMetres;
+bool isBesideSurface(FieldReading reading, float besideMetres) {
+  return reading.cascade >= 0 && abs(reading.distanceWorld) <= besideMetres;
 }
 
 // Whether what the field reads is of the objects that were joined.
@@ -129,7 +129,7 @@ bool isMeant(NearDistance nearest, float metres, float texel) {
 // fineMetres  what the reader tells apart: distances beyond it are all the same to it
 NearDistance refineByBricks(vec3 pointAnchored, FieldReading reading, float texel, float fineMetres) {
   NearDistance refined = NearDistance(reading.distanceWorld, texel, 0u);
-  if (!isBesideSurface(reading, texel, fineMetres)) return refined;
+  if (!isBesideSurface(reading, BRICKS_END_TEXELS * texel + fineMetres)) return refined;
   FieldCascade cascade = field.cascades[reading.cascade];
   findRows(cascade, ivec3(floor(pointAnchored * cascade.texel.y - 0.5)));
   NearDistance nearest = NearDistance(3.4e38, texel, 0u);

@@ -21,6 +21,7 @@ struct ShadowCone {
   float end;    // metres: the light is there, or the field ends
   float lightAt; // metres: the light is there; 3.4e38 for suns
   float grain;  // metres, of what is read at the origin; by who marches
+  float lift;   // metres, off the surface, where the march begins; by who marches
   float pixel;  // metres that a pixel spans at the origin, at most
 };
 

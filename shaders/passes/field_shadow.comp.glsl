@@ -1,4 +1,6 @@
 // Soft shadows of the first lights by the world field alone.
+// The field alone is too dark as it is: things are thick in it, and few rays come through gaps.
+const bool ENDS_DARK = false;
 #include "lib/field_shadow.glsl"
 // One warp: the barrier of the mean waits for nobody.
 const int GROUP_WIDTH = 8, GROUP_HEIGHT = 4;
@@ -7,7 +9,7 @@ const int GROUP_WIDTH = 8, GROUP_HEIGHT = 4;
 uniform int raysOfPenumbra;
 uniform float softness;
 
-ShadowReading readForShadow(vec3 pointAnchored, float fineMetres, bool keepsObjects) {
+ShadowReading readForShadow(vec3 pointAnchored, float mostMetres, bool keepsObjects) {
   ++shadowReads;
   FieldReading reading = readWorldField(pointAnchored);
   float texel = texelOf(reading);

@@ -44,7 +44,7 @@ void addFieldShadowOptions(CLI::App& command, FieldShadowChoice& choice) {
       "thesis), "
       "coverage, rtsdf or umbra (both Tan and others 2022)",
       "NAME", [](FieldShadowChoice& c, Text flag, Text text) { c.settings.estimator = parseEstimator(flag, text); });
-  add("--shadow-rays", "Rays to a light of which a part is seen, 1 to 64, 6 by default; of rays and umbra", "N",
+  add("--shadow-rays", "Rays to a light of which a part is seen, 1 to 64, 10 by default; of rays and umbra", "N",
       [](FieldShadowChoice& c, Text flag, Text text) {
         c.settings.penumbraRays = static_cast<int>(parseWhole(flag, text, 1, 64));
       });

@@ -14,7 +14,7 @@ namespace brickfield {
 
 /// Rays unless --shadow-rays says otherwise: fewer than the renderer's own default, whose steps neighbours need not
 /// hide.
-inline constexpr int kChosenRays = 6;
+inline constexpr int kChosenRays = 10;
 
 struct FieldShadowChoice {
   FieldShadowChoice() { settings.penumbraRays = kChosenRays; }

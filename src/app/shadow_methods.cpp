@@ -30,11 +30,11 @@ const std::vector<BenchedShadows>& benchedShadows() {
     const auto exact = FieldMethod::Exact;
     ShadowSettings half = rays;
     half.halfResolution = true;
-    add("field", "a cone, 6 rays, exact world field and meshes' bricks", exact, rays, true);
+    add("field", "a cone, 10 rays, exact world field and meshes' bricks", exact, rays, true);
     add("field-half", "the same at half resolution", exact, half, true);
     add("field-16", "16 rays", exact, with(ShadowEstimator::Rays, 16), true);
     add("field-4", "4 rays", exact, with(ShadowEstimator::Rays, 4), true);
-    add("field-alone", "6 rays, the world field alone", exact, rays);
+    add("field-alone", "10 rays, the world field alone", exact, rays);
     add("field-alone-half", "the same at half resolution", exact, half);
     ShadowSettings both = rays;
     both.method = ShadowMethod::MapsAndField;

@@ -282,6 +282,65 @@ TEST_F(FieldShadow, GrazingLightPassesWhereBricksEnd) {
   }
 }
 
+// On an object's plate a ridge lower than a voxel: light that grazes the plate does not pass over it. Its shadow is as
+// long as the ridge is high over the tangent of the sun's height.
+TEST_F(FieldShadow, RidgesLowerThanAVoxelShadeWhereLightGrazes) {
+  constexpr float kVoxel = 0.8f / 256, kHigh = 0.75f * kVoxel, kHalf = 0.02f, kHeightDegrees = 8;
+  Scene built = slabOverFloor();
+  built.nodes[1].name = "Plate";
+  built.nodes[1].matrix = glm::translate(glm::mat4(1), {0, 0.5f, 0});
+  built.meshes[1] = makeBoxMesh({0.4f, 0.1f, 0.1f});
+  built.nodes.push_back({});
+  built.nodes[2].name = "PlateRidge";
+  built.nodes[2].mesh = 2;
+  built.nodes[2].matrix = glm::translate(glm::mat4(1), {0, 0.6f + kHigh - 0.05f, 0});
+  built.meshes.push_back(makeBoxMesh({kHalf, 0.05f, 0.09f}));
+  built.scenes[0].nodes.push_back(2);
+  const TestScene scene(std::move(built), "Plate*", 256);
+  const auto renderer = scene.makeRenderer(context().info(), marching(128));
+  const float rises = std::tan(glm::radians(kHeightDegrees));
+  renderer->setLighting(
+      makeLighting(scene.pose(), {"sun:1," + std::to_string(-rises) + ",0:0.5:3"}, {{1, 1}, {glm::vec3(0)}}));
+  const View view = scene.view({0.03f, 0.75f, 0}, {0.03f, 0.6f, 0.001f}, kSize, 30);
+  renderer->render(view);
+  const FrameLayers frame = renderer->readLayers();
+  std::size_t covered = 0, leaking = 0, free = 0, dark = 0;
+  for (std::size_t i = 0; i < frame.id.size(); ++i) {
+    const glm::vec2 pixel(i % kSize.x, i / kSize.x);
+    const PrimaryRay ray = primaryRay(view, pixel + 0.5f);
+    const glm::vec3 point = ray.originWorld + frame.depth[i] * ray.directionWorld;
+    if (frame.kind[i] != SurfaceKind::Sdf || frame.normalSurface[i].y < 0.99f) continue;
+    const float way = (point.x - kHalf) / (kHigh / rises), visible = frame.shadow.front()[i];
+    if (way > 0.2f && way < 0.6f) ++covered, leaking += visible > 0.1f;
+    if (way > 1.6f) ++free, dark += visible < 0.9f;
+  }
+  ASSERT_GT(covered, 1000u);
+  ASSERT_GT(free, 1000u);
+  std::printf("behind a low ridge: %zu of %zu leaking, %zu of %zu dark\n", leaking, covered, dark, free);
+  EXPECT_LE(leaking, covered / 50);
+  EXPECT_LE(dark, free / 50);
+}
+
+// All of a sun of four degrees stands over the horizon of an open floor, its lowest rays by a fifth of a degree: these
+// creep along the floor until their reads are spent, and have met nothing.
+TEST_F(FieldShadow, RaysThatCreepAlongAnOpenFloorAreFree) {
+  Scene built = slabOverFloor();
+  built.scenes[0].nodes.pop_back();
+  const TestScene scene(std::move(built), "none");
+  const auto renderer = scene.makeRenderer(context().info(), marching(256));
+  const float rises = std::tan(glm::radians(2.2f));
+  renderer->setLighting(
+      makeLighting(scene.pose(), {"sun:1," + std::to_string(-rises) + ",0:4:3"}, {{1, 1}, {glm::vec3(0)}}));
+  const View view = scene.view({0.4f, 0.8f, 0}, {0.4f, 0, 0.001f}, kSize, 50);
+  renderer->render(view);
+  double sum = 0;
+  std::size_t count = 0;
+  for (const FloorSample& sample : floorSamples(view, renderer->readLayers())) sum += sample.visible, ++count;
+  ASSERT_GT(count, 10000u);
+  std::printf("open floor: %.3f of the light\n", sum / static_cast<double>(count));
+  EXPECT_GT(sum / static_cast<double>(count), 0.97);
+}
+
 TEST_F(FieldShadow, TwoRunsAreTheSameBytes) {
   std::vector<std::vector<float>> shadows;
   for (int run = 0; run < 2; ++run) {

@@ -27,7 +27,7 @@ FieldShadowChoice parse(std::vector<std::string> arguments) {
 TEST(FieldShadowChoice, FlagsBecomeSettings) {
   const FieldShadowChoice none = parse({});
   ShadowSettings usual;
-  usual.penumbraRays = 6;
+  usual.penumbraRays = 10;
   EXPECT_EQ(none.settings, usual);
   EXPECT_TRUE(none.given.empty());
   const FieldShadowChoice all = parse({"--shadow-estimator", "umbra", "--shadow-rays", "4", "--shadow-softness", "0.5",
