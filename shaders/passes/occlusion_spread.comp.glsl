@@ -20,6 +20,9 @@ uniform float occlusionRadius;
 // Of the square's width: what is as far from the plane counts no more.
 const float MOST_OFF_PLANE = 0.1;
 const float LEAST_NORMAL_COSINE = 0.8;
+// Of a place's weight for each place that it lies from the square's middle, along both axes. At quarter resolution the
+// square is as wide as sixteen pixels, over which occlusion changes; at half the mean of all differs less from the truth.
+const float QUARTER_FALL = 0.333;
 // Of the places in the square; with less the mean would be noise.
 const float LEAST_SUM = 1.0;
 
@@ -72,13 +75,15 @@ float spreadTo(ivec2 pixel, PixelPoint point, ivec2 firstPlace) {
   vec2 part;
   ivec2 corner = squareCorner(pixel, part) - firstPlace;
   int side = sideOfGroup();
-  float sum = 0.0, weights = 0.0;
+  float sum = 0.0, weights = 0.0, fall = occlusionScale == 4 ? QUARTER_FALL : 0.0;
+  vec2 middle = part + 0.5 * float(OCCLUSION_PATTERN_SIDE - 1);
   for (int y = 0; y <= OCCLUSION_PATTERN_SIDE; ++y)
     for (int x = 0; x <= OCCLUSION_PATTERN_SIDE; ++x) {
       int i = (corner.y + y) * side + corner.x + x;
       vec2 within = mix(vec2(1.0), mix(1.0 - part, part, greaterThan(ivec2(x, y), ivec2(0))),
                         equal(ivec2(x, y) % OCCLUSION_PATTERN_SIDE, ivec2(0)));
-      float weight = within.x * within.y * likeness(point, tracedPoint[i].xyz, tracedNormal[i]);
+      vec2 nearness = 1.0 - fall * abs(vec2(x, y) - middle);
+      float weight = within.x * within.y * nearness.x * nearness.y * likeness(point, tracedPoint[i].xyz, tracedNormal[i]);
       sum += weight * tracedPoint[i].w;
       weights += weight;
     }

@@ -124,7 +124,7 @@ struct Bound {
 // much again. The published forms have no bound of their own: they are held to what they give.
 constexpr Bound kBounds[] = {{OcclusionForm::Cones, 1, 0.02, 0.01},
                              {OcclusionForm::Cones, 2, 0.02, 0.01},
-                             {OcclusionForm::Cones, 4, 0.03, 0.01},
+                             {OcclusionForm::Cones, 4, 0.02, 0.01},
                              {OcclusionForm::Rays, 1, 0.08, 0.07},
                              {OcclusionForm::Taps, 1, 0.16, 0.14}};
 
