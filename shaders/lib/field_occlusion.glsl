@@ -26,6 +26,8 @@ const float CONE_CLEAR = 0.5;
 const float LEAST_CONE_TEXELS = 0.2;
 // A sheet midway between texels is interpolated to nothing deeper than 0.
 const float BLOCKED_TEXELS = 0.01;
+// A cone ends so much before the radius: what a reading there tells of lies beyond it.
+const float END_TEXELS = 0.5;
 const float CONE_LEAD = 16.0; // just outside of things a cone is free to lead / (1 + lead)
 const float OCCLUSION_GOLDEN_ANGLE = 2.39996323;
 
@@ -73,12 +75,13 @@ float openOfCone(OcclusionPoint point, vec3 direction, float spread, float radiu
   float cosine = dot(point.normal, direction);
   spread = min(spread, CONE_CLEAR * cosine);
   float fade = max(OCCLUSION_LIFT_FADE * cosine, OCCLUSION_LIFT_TEXELS / MOST_OCCLUSION_FADE_TEXELS);
-  float t = 0.0, free = 1.0, within = -3e38; // the last reading while it was within what it begins beside
-  for (int i = 0; i < MOST_OCCLUSION_READS && t < radius; ++i) {
+  float t = 0.0, end = radius, free = 1.0, within = -3e38; // the last reading while it was within what it begins beside
+  for (int i = 0; i < MOST_OCCLUSION_READS && t < end; ++i) {
     float lift = max(OCCLUSION_LIFT_TEXELS * point.texel - fade * t, 0.0);
     FieldReading reading = readForOcclusion(point.origin + lift * point.normal + t * direction);
     if (reading.cascade < 0 && t > 0.0) break; // outside of the field nothing is known to hide anything
     float texel = texelOfReading(reading), past = reading.distanceWorld - BLOCKED_TEXELS * texel;
+    end = radius - END_TEXELS * texel;
     if (past <= 0.0) {
       if (reading.distanceWorld < within + LEAST_RISE_TEXELS * texel) return 0.0;
       within = reading.distanceWorld;

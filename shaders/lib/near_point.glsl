@@ -30,8 +30,10 @@ NearPoint nearPoint(FieldObjectRow row, vec3 pointGrid) {
   NearPoint near;
   near.surfaceGrid = surfaceOfTexel(row, read);
   near.signedGrid = (2.0 * read.a - 1.0) * row.pointBlock.w;
-  // A distance d curves by at most 1/d along two axes, which interpolation adds.
-  near.excess = row.pointCell.w / max(abs(near.signedGrid) - 0.9 * row.points.w, 0.25 * row.points.w);
+  // A distance d curves by at most 1/d along two axes, which interpolation adds. Inside, where surfaces are equally near,
+  // it bends the other way, by as much as the way to the grid points.
+  float curved = row.pointCell.w / max(abs(near.signedGrid) - 0.9 * row.points.w, 0.25 * row.points.w);
+  near.excess = near.signedGrid < 0.0 ? max(curved, 0.9 * row.points.w) : curved;
   vec3 place = pointGrid - row.points.xyz;
   near.outer = distance(place, clamp(place, vec3(0.0), float(NEAREST_POINTS - 1u) * row.pointCell.xyz)); // 0 within
   return near;

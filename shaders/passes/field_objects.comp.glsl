@@ -17,7 +17,7 @@ layout(std430, binding = kFieldFlipBinding) readonly buffer FlipBlock {
 layout(std430, binding = kFieldListBinding) readonly buffer ListBlock { uint listed[]; };
 uniform uint listLength;
 #endif
-layout(std430, binding = kFieldSearchBinding) writeonly buffer SearchBlock { FieldSearch searches[]; };
+layout(std430, binding = kFieldSearchBinding) buffer SearchBlock { FieldSearch searches[]; };
 layout(std430, binding = kFieldOpenBinding) buffer OpenBlock {
   uint searchCount, openCount;
   uvec2 open[]; // of each tile with searches their first row, and how many
@@ -72,20 +72,25 @@ float upperBy(FieldObject object, vec3 pointGrid, vec3 at, BrickReading reading)
   return object.instance.boxMax.w * (distance(pointGrid, at) + inner);
 }
 
-// Where there is no row left, what is known of the object from below has to do.
-bool addSearch(uint at, FieldSearch search) {
-  if (at >= uint(searches.length())) return false;
-  searches[at] = search;
-  return true;
-}
+// Whether an object may be the nearest. How deep inside is not known from below.
+bool mayBeNearer(float bound, float metres) { return bound < 0.0 || bound < metres; }
 
-void listSearch(uint number, float bound, inout Joined joined) {
-  if (joined.search.object != FIELD_NONE && joined.bound < joined.metres) {
-    uint at = atomicAdd(searchCount, 1u);
-    if (addSearch(at, FieldSearch(FIELD_NONE, joined.search.object, joined.search.more, 0.0))) joined.search.more = at;
+// Lists an object to be searched. Where there is no row left, what is known of it from below joins: no ray steps through.
+//
+// bound  metres, negative inside: no distance is nearer to the surface
+void listSearch(Place place, FieldObject object, uint number, float bound, inout Joined joined) {
+  if (joined.search.object == FIELD_NONE || !mayBeNearer(joined.bound, joined.metres)) {
+    joined.search.object = number;
+    joined.bound = bound;
+    return;
   }
-  joined.search.object = number;
-  joined.bound = bound;
+  uint row = atomicAdd(searchCount, 1u);
+  if (row < uint(searches.length())) {
+    searches[row] = FieldSearch(FIELD_NONE, number, joined.search.more, bound);
+    joined.search.more = row;
+  } else {
+    join(place, object, bound, joined);
+  }
 }
 
 // Lets an object join, or lists it to be searched. One loop, and one place in it that reads: first the distance, then
@@ -122,7 +127,7 @@ void joinObject(Place place, uint number, vec3 point, inout Joined joined) {
     }
     bool isNear = bound.upper < FADED_TEXELS * texel;
     if (!isKnown || (isNear && !isAround)) { // in the box the way to the surface is not known
-      listSearch(number, bound.side < 0.0 ? -1e30 : bound.lower, joined);
+      listSearch(place, object, number, bound.side * bound.lower, joined);
       return;
     }
     if (!isNear || !placeBehind(object, bound, at)) break;
@@ -202,7 +207,8 @@ void main() {
     joinListed(place, point, joined);
     barrier();
   }
-  bool isOpen = joined.search.more != FIELD_NONE || (joined.search.object != FIELD_NONE && joined.bound < joined.metres);
+  bool isOpen = joined.search.object != FIELD_NONE &&
+                (joined.search.more != FIELD_NONE || mayBeNearer(joined.bound, joined.metres));
   uint rank = isOpen ? atomicAdd(ownSearches, 1u) : 0u;
   barrier();
   if (gl_LocalInvocationIndex == 0u && ownSearches > 0u) {
@@ -210,8 +216,19 @@ void main() {
     open[atomicAdd(openCount, 1u)] = uvec2(firstSearch, ownSearches);
   }
   barrier();
-  joined.search.metres = joined.metres;
-  if (isOpen) addSearch(firstSearch + rank, joined.search);
+  uint row = firstSearch + rank;
+  if (isOpen && row < uint(searches.length())) {
+    joined.search.metres = joined.metres;
+    searches[row] = joined.search;
+  } else if (isOpen) {
+    FieldSearch lost = joined.search;
+    lost.metres = joined.bound;
+    for (;;) {
+      join(place, objectAt(place, lost.object), lost.metres, joined);
+      if (lost.more == FIELD_NONE) break;
+      lost = searches[lost.more];
+    }
+  }
   if (joined.metres == before && joined.word == wordBefore) return;
   nodes[nodeAt] = joined.word;
   imageStore(distances[place.tile.cascade], latticeOf(place, texel) & (place.cascade.window.w - 1),

@@ -82,7 +82,7 @@ float spreadTo(ivec2 pixel, PixelPoint point, ivec2 firstPlace) {
       int i = (corner.y + y) * side + corner.x + x;
       vec2 within = mix(vec2(1.0), mix(1.0 - part, part, greaterThan(ivec2(x, y), ivec2(0))),
                         equal(ivec2(x, y) % OCCLUSION_PATTERN_SIDE, ivec2(0)));
-      vec2 nearness = 1.0 - fall * abs(vec2(x, y) - middle);
+      vec2 nearness = (1.0 - fall * abs(vec2(x, y) - middle)) / (1.0 - fall); // 1 on average
       float weight = within.x * within.y * nearness.x * nearness.y * likeness(point, tracedPoint[i].xyz, tracedNormal[i]);
       sum += weight * tracedPoint[i].w;
       weights += weight;

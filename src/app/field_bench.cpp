@@ -124,7 +124,7 @@ FieldTimes FieldBench::timeExact(const FieldShape& shape, const PoseOfFrame& pos
   times.gathered = std::min(gathered, triangles_.triangleCount());
   times.drawn = std::min(field.exact().splatCount() * shared::GATHER_TRIANGLES, triangles_.triangleCount());
   times.sdfObjects = times.tiles.values > 0 ? resident_.sdfInstanceCount() : 0;
-  times.bytes = field.exact().bytes() + NearestPoints::bytesFor(resident_.atlas()) + triangles_.bytes();
+  times.bytes = field.exact().bytes() + NearestPoints::bytesFor(resident_) + triangles_.bytes();
   return times;
 }
 

@@ -140,7 +140,7 @@ void FieldKeeper::count(std::uint32_t moved) {
   stats_.candidateTiles = exact.lengthOf(List::Candidates);
   stats_.valueTiles = exact.lengthOf(List::Values);
   stats_.bytes.nodes = exact.nodes().bytes();
-  stats_.bytes.objects = NearestPoints::bytesFor(resident_->atlas());
+  stats_.bytes.objects = NearestPoints::bytesFor(*resident_);
   stats_.bytes.work = exact.bytes() - stats_.bytes.distances - stats_.bytes.nodes;
 }
 

@@ -3,6 +3,7 @@
 #include "resident/brick_atlas.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/error.h"
 #include "shared/bindings.h"
@@ -104,7 +105,8 @@ BrickAtlas::FieldId BrickAtlas::add(const BrickField& field) {
   levelTable_.growTo(std::size_t{levelRows_.end()} * sizeof(shared::SdfLevel));
   renewRows();
   uploadRows(held);
-  const FieldId id = nextId_++;
+  static std::atomic<FieldId> nextId{1};
+  const FieldId id = nextId++;
   fields_.emplace(id, std::move(held));
   return id;
 }

@@ -27,7 +27,7 @@ class BrickAtlas {
 public:
   BrickAtlas();
 
-  using FieldId = std::uint32_t;
+  using FieldId = std::uint32_t; ///< no two are the same, of whatever atlas
   /// Makes room for these fields at once, so that adding them moves nothing.
   void reserve(const std::vector<BrickField>& fields);
   /// Uploads a field that validateField accepts.
@@ -69,7 +69,6 @@ private:
   Buffer levelTable_, indirection_;
   RangeAllocator levelRows_, cells_, numbers_;
   std::unordered_map<FieldId, HeldField> fields_;
-  FieldId nextId_ = 1;
   int depth8_ = 0, depth16_ = 0; ///< of the pools, as the rows know them
 };
 

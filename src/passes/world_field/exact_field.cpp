@@ -13,7 +13,7 @@ namespace brickfield {
 namespace {
 
 constexpr float kSheetHalfTexels = 0.5f;
-constexpr std::size_t kLeastSearches = std::size_t{1} << 18;
+constexpr std::size_t kLeastSearches = std::size_t{3} << 18;
 constexpr int kLeastKeyDistanceBits = 6; // steps of 1/28 texel: what they confuse, the evaluation rounds sort out
 
 std::size_t texelsOf(const FieldWindow& window) {
@@ -88,7 +88,7 @@ void ExactField::prepare(const std::vector<FieldWindow>& windows, const FieldWor
   objects_.upload(0, work.objects);
 
   // The largest number is never used: a key of ones alone is no key.
-  const int triangleBits = std::bit_width(work.triangleCount);
+  const int triangleBits = std::max(static_cast<int>(std::bit_width(work.triangleCount)), 1);
   if (32 - triangleBits < kLeastKeyDistanceBits)
     throw Failure(fmt::format("world field: {} triangles are more than its keys can number", work.triangleCount));
   shared::FieldParams params{};

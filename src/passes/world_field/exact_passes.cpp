@@ -190,7 +190,7 @@ void FieldResolvePass::record(ExactField& field, const Buffer& triangles, const 
   if (!field.hasWork()) return;
   if (scene.sdfInstanceCount() > 0) {
     scene.atlas().bind();
-    nearestPoints_.fit(scene.atlas());
+    nearestPoints_.fit(scene);
   }
   field.clearCounts();
   field.bindParams();

@@ -19,6 +19,21 @@ glm::ivec3 extentFor(int fields) {
   return glm::ivec3(std::min(fields, kBlocks), std::min(rows, kBlocks), ceilDivide(rows, kBlocks)) * kSide;
 }
 
+std::uint32_t fieldNumberOf(const shared::SdfInstance& row) {
+  return static_cast<std::uint32_t>(row.ids.w) >> shared::SDF_FIELD_SHIFT;
+}
+
+/// By the fields' numbers: whether an SDF object draws it.
+std::vector<bool> drawnFields(const ResidentScene& scene) {
+  std::vector<bool> drawn;
+  for (std::uint32_t i = 0; i < scene.sdfInstanceCount(); ++i) {
+    const std::size_t number = fieldNumberOf(scene.sdfInstances()[i]);
+    if (number >= drawn.size()) drawn.resize(number + 1);
+    drawn[number] = true;
+  }
+  return drawn;
+}
+
 } // namespace
 
 PointGrid pointGridOf(const glm::vec3& boxMinGrid, const glm::vec3& boxMaxGrid, std::uint32_t fieldNumber) {
@@ -32,9 +47,7 @@ PointGrid pointGridOf(const glm::vec3& boxMinGrid, const glm::vec3& boxMaxGrid, 
 NearestPoints::NearestPoints(ShaderLibrary& shaders)
     : program_(shaders.load({"nearest_points", {{GL_COMPUTE_SHADER, "passes/nearest_points.comp.glsl"}}, {}, {}})) {}
 
-void NearestPoints::make(const ResidentField& field) {
-  const std::array<Buffer, 2> points{Buffer("nearest_points", kPoints * sizeof(glm::vec4)),
-                                     Buffer("nearest_points", kPoints * sizeof(glm::vec4))};
+void NearestPoints::make(const ResidentField& field, std::span<const Buffer, 2> points) {
   const glm::vec3 boxMin = (field.boundsObject.min - field.originObject) / field.voxelSizeObject;
   const glm::vec3 boxMax = (field.boundsObject.max - field.originObject) / field.voxelSizeObject;
   const PointGrid grid = pointGridOf(boxMin, boxMax, field.number);
@@ -55,28 +68,34 @@ void NearestPoints::make(const ResidentField& field) {
   }
 }
 
-void NearestPoints::fit(const BrickAtlas& atlas) {
-  const auto end = static_cast<int>(atlas.numbersEnd());
-  const glm::ivec3 extent = extentFor(std::max(end, 1));
-  if (!texture_ || glm::any(glm::greaterThan(extent, texture_.extent()))) {
+void NearestPoints::fit(const ResidentScene& scene) {
+  const std::vector<bool> drawn = drawnFields(scene);
+  const glm::ivec3 extent = extentFor(static_cast<int>(drawn.size()));
+  if (!drawn.empty() && (!texture_ || glm::any(glm::greaterThan(extent, texture_.extent())))) {
+    texture_ = {}; // before there is a larger one
     texture_ = Texture::make3D("nearest_points", GL_RGBA16, extent);
     made_.clear();
   }
-  made_.resize(static_cast<std::size_t>(end));
-  bool isChanged = false;
-  for (const BrickAtlas::FieldId id : atlas.fieldIds()) {
-    const ResidentField& field = atlas.field(id);
-    if (made_[field.number] == id) continue;
-    if (!isChanged) texture_.bindImage(0, 0, GL_WRITE_ONLY);
-    isChanged = true;
-    make(field);
+  made_.resize(std::max(made_.size(), drawn.size()));
+  std::vector<BrickAtlas::FieldId> wanted;
+  for (const BrickAtlas::FieldId id : scene.atlas().fieldIds()) {
+    const std::uint32_t number = scene.atlas().field(id).number;
+    if (number < drawn.size() && drawn[number] && made_[number] != id) wanted.push_back(id);
+  }
+  if (wanted.empty()) return;
+  const std::array<Buffer, 2> points{Buffer("nearest_points", kPoints * sizeof(glm::vec4)),
+                                     Buffer("nearest_points", kPoints * sizeof(glm::vec4))};
+  texture_.bindImage(0, 0, GL_WRITE_ONLY);
+  for (const BrickAtlas::FieldId id : wanted) {
+    const ResidentField& field = scene.atlas().field(id);
+    make(field, points);
     made_[field.number] = id;
   }
-  if (isChanged) glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-std::size_t NearestPoints::bytesFor(const BrickAtlas& atlas) {
-  const glm::ivec3 extent = extentFor(static_cast<int>(atlas.numbersEnd()));
+std::size_t NearestPoints::bytesFor(const ResidentScene& scene) {
+  const glm::ivec3 extent = extentFor(static_cast<int>(drawnFields(scene).size()));
   return 8 * std::size_t(extent.x) * std::size_t(extent.y) * std::size_t(extent.z);
 }
 

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "gpu/buffer.h"
 #include "gpu/shader_library.h"
 #include "gpu/texture.h"
-#include "resident/brick_atlas.h"
+#include "resident/resident_scene.h"
 
 namespace brickfield {
 
@@ -27,16 +28,16 @@ class NearestPoints {
 public:
   explicit NearestPoints(ShaderLibrary& shaders);
 
-  /// Makes the grids of fields that came since. The atlas must be bound; image stores and storage writes need barriers
-  /// behind it, which it sets. error Failure: the device has no memory for them
-  void fit(const BrickAtlas& atlas);
+  /// Makes the grids of fields that came since, of those that SDF objects draw. The atlas must be bound; it sets the
+  /// barriers behind its stores. error Failure: the device has no memory for them
+  void fit(const ResidentScene& scene);
   /// For a program that includes lib/near_point.glsl and is in use.
   void bind(Program& program) const;
-  /// Of the grids around an atlas' fields.
-  static std::size_t bytesFor(const BrickAtlas& atlas);
+  /// Of the grids for a scene: whole rows of 16 fields, and whole layers of 256.
+  static std::size_t bytesFor(const ResidentScene& scene);
 
 private:
-  void make(const ResidentField& field);
+  void make(const ResidentField& field, std::span<const Buffer, 2> points);
 
   std::shared_ptr<Program> program_;
   std::vector<BrickAtlas::FieldId> made_; ///< by their fields' numbers; 0: none

@@ -287,6 +287,41 @@ TEST_F(SdfObjectsInField, AreExactWhereHundredsOverlap) {
   EXPECT_EQ(wrongSigns, 0u);
 }
 
+// More searches than there is room for: what is stored then is no farther than the truth, and on its side.
+TEST_F(SdfObjectsInField, HaveNoHolesWhereSearchesHaveNoRoom) {
+  constexpr float kRadius = 1.0f;
+  constexpr int kSpheres = 24;
+  Scene built = sceneOf({{"Sdf0", makeSphereMesh(kRadius, 48, 96), glm::mat4(1)}});
+  std::vector<glm::vec3> centers;
+  for (int i = 0; i < kSpheres; ++i) {
+    centers.push_back(0.12f * glm::sin(glm::vec3(1.7f, 2.9f, 4.1f) * static_cast<float>(i)));
+    if (i > 0) {
+      Node node = built.nodes[0];
+      node.name = "Sdf" + std::to_string(i);
+      built.scenes[0].nodes.push_back(i);
+      built.nodes.push_back(node);
+    }
+    built.nodes[static_cast<std::size_t>(i)].matrix = place(centers.back());
+  }
+  const TestScene scene(std::move(built), "Sdf*", 24);
+  WorldFieldStage stage(scene.scene(), scene.fields(), {1, 64, 0, true});
+  stage.frame(scene.pose(), glm::dvec3(0));
+  const FieldSnapshot field = stage.read();
+  const double h = field.window.texelSize, range = field.window.rangeTexels();
+  std::size_t holes = 0, wrongSides = 0;
+  for (std::size_t i = 0; i < field.distances.size(); ++i) {
+    const glm::dvec3 point = field.centerAnchored(i) + field.anchorWorld;
+    double truth = range;
+    for (const glm::vec3& center : centers)
+      truth = std::min(truth, (glm::distance(point, glm::dvec3(center)) - kRadius) / h);
+    // A texel is half a voxel: bricks are as far off.
+    holes += truth > 0 && field.distances[i] > truth + 1;
+    wrongSides += std::abs(truth) > 1 && (truth < 0) != (field.distances[i] < 0);
+  }
+  EXPECT_EQ(holes, 0u);
+  EXPECT_EQ(wrongSides, 0u);
+}
+
 // Objects that overlap are worked on in an order of their own, and look at their neighbours; still each bit is what it
 // would be without a past.
 TEST_F(SdfObjectsInField, MoveToTheSameBits) {
