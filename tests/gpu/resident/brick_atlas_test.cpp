@@ -176,6 +176,13 @@ TEST_F(BrickAtlasTest, RemovedFieldIsUnknown) {
   EXPECT_THROW(atlas.field(id), Failure);
 }
 
+// Who keeps something by ids outlives scenes and their atlases.
+TEST_F(BrickAtlasTest, IdsAreThoseOfNoOtherAtlas) {
+  const BrickField field = fieldOf(sphereBody(), 16, 8, 1);
+  BrickAtlas one, other;
+  EXPECT_NE(one.add(field), other.add(field));
+}
+
 // A layer of the pool holds 4096 bricks: a second one makes new textures, and the tables grow with them.
 TEST_F(BrickAtlasTest, GrowthKeepsWhatIsThere) {
   BrickAtlas atlas;
