@@ -52,6 +52,28 @@ Scene makeMixture() {
                   {"Torus", makeTorusMesh(0.4f, 0.1f, 96, 48), place({0.9f, -0.7f, 0}, 1, 1.9f)}});
 }
 
+// SDF objects of one mesh.
+Scene makeSpheres(float radius, const std::vector<glm::vec3>& centers) {
+  Scene scene = sceneOf({{"Sdf0", makeSphereMesh(radius, 48, 96), place(centers[0])}});
+  for (std::size_t i = 1; i < centers.size(); ++i) {
+    Node node = scene.nodes[0];
+    node.name = "Sdf" + std::to_string(i);
+    node.matrix = place(centers[i]);
+    scene.scenes[0].nodes.push_back(static_cast<int>(i));
+    scene.nodes.push_back(node);
+  }
+  return scene;
+}
+
+// In texels, as far as the field knows.
+double unionOfSpheres(glm::dvec3 point, const std::vector<glm::vec3>& centers, double radius,
+                      const FieldWindow& window) {
+  double least = window.rangeTexels();
+  for (const glm::vec3& center : centers)
+    least = std::min(least, (glm::distance(point, glm::dvec3(center)) - radius) / window.texelSize);
+  return least;
+}
+
 // The least of the distances to each object and to what the meshes make.
 class MixtureOracle {
 public:
@@ -246,34 +268,24 @@ TEST_F(SdfObjectsInField, AreDeeperThanMeshesWithinThem) {
 TEST_F(SdfObjectsInField, AreExactWhereHundredsOverlap) {
   constexpr int kAlong = 9;
   constexpr float kRadius = 0.06f, kApart = 0.05f;
-  Scene built = sceneOf({{"Sdf0", makeSphereMesh(kRadius, 48, 96), glm::mat4(1)}});
   std::vector<glm::vec3> centers;
   for (int i = 0; i < kAlong * kAlong * kAlong; ++i) {
     // Not quite in rows, so that no two are equally near.
     const glm::vec3 at(i % kAlong, i / kAlong % kAlong, i / (kAlong * kAlong));
     centers.push_back(kApart * (at + 0.3f * glm::sin(glm::vec3(1.7f, 2.9f, 4.1f) * static_cast<float>(i))));
-    if (i > 0) {
-      Node node = built.nodes[0];
-      node.name = "Sdf" + std::to_string(i);
-      built.scenes[0].nodes.push_back(i);
-      built.nodes.push_back(node);
-    }
-    built.nodes[static_cast<std::size_t>(i)].matrix = place(centers.back());
   }
-  const TestScene scene(std::move(built), "Sdf*", 32);
+  const TestScene scene(makeSpheres(kRadius, centers), "Sdf*", 32);
   ASSERT_EQ(scene.pose().instances.size(), centers.size());
   WorldFieldStage stage(scene.scene(), scene.fields(), {1, 16, 0, true});
   stage.frame(scene.pose(), glm::dvec3(0));
   const FieldSnapshot field = stage.read();
-  const double h = field.window.texelSize, range = field.window.rangeTexels();
+  const double h = field.window.texelSize;
   ASSERT_LT(h, 0.05) << "all 729 lie within two tiles";
   double squares = 0, worst = 0;
   std::size_t near = 0, wrongSigns = 0;
   for (std::size_t i = 0; i < field.distances.size(); ++i) {
     const glm::dvec3 point = field.centerAnchored(i) + field.anchorWorld;
-    double truth = range;
-    for (const glm::vec3& center : centers)
-      truth = std::min(truth, (glm::distance(point, glm::dvec3(center)) - kRadius) / h);
+    const double truth = unionOfSpheres(point, centers, kRadius, field.window);
     if (truth > 4) continue;
     const double off = std::abs(field.distances[i] - truth);
     ++near, squares += off * off, worst = std::max(worst, off);
@@ -291,29 +303,17 @@ TEST_F(SdfObjectsInField, AreExactWhereHundredsOverlap) {
 TEST_F(SdfObjectsInField, HaveNoHolesWhereSearchesHaveNoRoom) {
   constexpr float kRadius = 1.0f;
   constexpr int kSpheres = 24;
-  Scene built = sceneOf({{"Sdf0", makeSphereMesh(kRadius, 48, 96), glm::mat4(1)}});
   std::vector<glm::vec3> centers;
-  for (int i = 0; i < kSpheres; ++i) {
+  for (int i = 0; i < kSpheres; ++i)
     centers.push_back(0.12f * glm::sin(glm::vec3(1.7f, 2.9f, 4.1f) * static_cast<float>(i)));
-    if (i > 0) {
-      Node node = built.nodes[0];
-      node.name = "Sdf" + std::to_string(i);
-      built.scenes[0].nodes.push_back(i);
-      built.nodes.push_back(node);
-    }
-    built.nodes[static_cast<std::size_t>(i)].matrix = place(centers.back());
-  }
-  const TestScene scene(std::move(built), "Sdf*", 24);
+  const TestScene scene(makeSpheres(kRadius, centers), "Sdf*", 24);
   WorldFieldStage stage(scene.scene(), scene.fields(), {1, 64, 0, true});
   stage.frame(scene.pose(), glm::dvec3(0));
   const FieldSnapshot field = stage.read();
-  const double h = field.window.texelSize, range = field.window.rangeTexels();
   std::size_t holes = 0, wrongSides = 0;
   for (std::size_t i = 0; i < field.distances.size(); ++i) {
     const glm::dvec3 point = field.centerAnchored(i) + field.anchorWorld;
-    double truth = range;
-    for (const glm::vec3& center : centers)
-      truth = std::min(truth, (glm::distance(point, glm::dvec3(center)) - kRadius) / h);
+    const double truth = unionOfSpheres(point, centers, kRadius, field.window);
     // A texel is half a voxel: bricks are as far off.
     holes += truth > 0 && field.distances[i] > truth + 1;
     wrongSides += std::abs(truth) > 1 && (truth < 0) != (field.distances[i] < 0);
