@@ -11,14 +11,10 @@ struct Nearest {
   float rank;    // metres
 };
 
-// Ties go to the lower number, whatever the order of asking. Ask what is likely to be nearest first: what is too far by
-// its corners alone is not looked at closely.
+// Ties go to the lower number, whatever the order of asking.
 void consider(uint triangle, vec3 point, float sheetHalf, inout Nearest nearest) {
   if (triangle == FIELD_NONE || triangle == nearest.triangle) return;
   vec3 a = triangles[triangle].a.xyz, b = triangles[triangle].b.xyz, c = triangles[triangle].c.xyz;
-  vec3 ab = b - a, ac = c - a;
-  // Rounding of these few terms is far below a thousandth.
-  if (length(point - a) - sqrt(max(dot(ab, ab), dot(ac, ac))) > nearest.rank * 1.001) return;
   bool isClosed = (triangles[triangle].codes.w & WORLD_TRIANGLE_CLOSED) != 0u;
   float rank = sqrt(squaredTriangleDistance(point, a, b, c)) + (isClosed ? sheetHalf : 0.0);
   if (rank < nearest.rank || (rank == nearest.rank && triangle < nearest.triangle)) nearest = Nearest(triangle, rank);

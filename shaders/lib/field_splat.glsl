@@ -82,11 +82,17 @@ void splatBounds(uint cascadeIndex, SplatTriangle t, out ivec3 lower, out ivec3 
 
 // Old values can only be larger: most texels are spared the atomic. In tiles that are not made anew the same key stands
 // already, or a smaller one.
-void splatAt(FieldCascade cascade, SplatTriangle t, ivec3 lattice) {
-  float squared = squaredDistance(t, inFrame(t, vec3(lattice) + 0.5));
+//
+// framed  the texel's centre in the frame
+void splatInFrame(SplatTriangle t, vec3 framed, uint word) {
+  float squared = squaredDistance(t, framed);
   if (squared > SPLAT_TEXELS * SPLAT_TEXELS) return;
-  uint word = texelWord(cascade, lattice), key = keyOf(sqrt(squared) + t.extra, t.number);
+  uint key = keyOf(sqrt(squared) + t.extra, t.number);
   if (key < keys[word]) atomicMin(keys[word], key);
+}
+
+void splatAt(FieldCascade cascade, SplatTriangle t, ivec3 lattice) {
+  splatInFrame(t, inFrame(t, vec3(lattice) + 0.5), texelWord(cascade, lattice));
 }
 
 // Texels of a box, numbered along x first.

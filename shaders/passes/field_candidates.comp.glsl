@@ -1,5 +1,4 @@
-// The triangle of each coarse texel: the nearest of those that its own nearest seed and those of its eighteen nearest
-// neighbours name.
+// The triangle of each coarse texel: the nearest of those that its own nearest seed and those of its six neighbours name.
 #include "lib/field_band.glsl"
 #include "lib/field_candidates.glsl"
 #include "lib/field_grid.glsl"
@@ -29,10 +28,22 @@ const float SEED_AWAY_TEXELS = 0.8760255 + 0.5;
 shared float ranks[COARSE_TILE_TEXELS]; // texels
 shared uint leastBits, leastTexel;
 
-uint seedNamedBy(FieldCascade cascade, ivec3 coarse) {
-  if (!isInWindow(cascade, coarse * COARSE)) return FIELD_NONE;
-  uint word = sweeps[coarseWord(cascade, coarse)];
-  return hasSeed(word) ? seeds[coarseWord(cascade, coarse + seedOffset(word))] : FIELD_NONE;
+// Reads of one kind stand together: they are waited for once, those in a loop one after the other.
+//
+// lowest  coarse texel of the apron
+void load(FieldCascade cascade, ivec3 lowest) {
+  const int PLACES = APRON * APRON * APRON, ROUNDS = (PLACES + 63) / 64;
+  int thread = int(gl_LocalInvocationIndex);
+  ivec3 coarse[ROUNDS];
+  uint words[ROUNDS];
+  for (int k = 0; k < ROUNDS; ++k) {
+    coarse[k] = lowest + cubeIndex(k * 64 + thread, APRON);
+    words[k] = isInWindow(cascade, coarse[k] * COARSE) ? sweeps[coarseWord(cascade, coarse[k])] : 0u;
+  }
+  for (int k = 0; k < ROUNDS; ++k)
+    words[k] = hasSeed(words[k]) ? seeds[coarseWord(cascade, coarse[k] + seedOffset(words[k]))] : FIELD_NONE;
+  for (int k = 0; k < ROUNDS; ++k)
+    if (k * 64 + thread < PLACES) named[k * 64 + thread] = words[k];
 }
 
 void main() {
@@ -42,8 +53,7 @@ void main() {
   FieldCascade cascade = field.cascades[tile.cascade];
   ivec3 first = tile.firstTexel / COARSE;
   if (gl_LocalInvocationIndex == 0u) leastBits = 0x7f800000u, leastTexel = 64u; // infinity
-  for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += 64)
-    named[i] = seedNamedBy(cascade, first - 1 + cubeIndex(i, APRON));
+  load(cascade, first - 1);
   barrier();
   ivec3 at = cubeIndex(int(gl_LocalInvocationIndex), COARSE_TILE);
   vec3 point = coarseCenter(cascade, first + at);
@@ -51,11 +61,10 @@ void main() {
   Nearest nearest = Nearest(FIELD_NONE, 1e30);
   int own = ((at.z + 1) * APRON + at.y + 1) * APRON + at.x + 1;
   consider(named[own], point, sheetHalf, nearest);
-  for (int z = -1; z <= 1; ++z)
-    for (int y = -1; y <= 1; ++y) {
-      int row = own + (z * APRON + y) * APRON, side = z * y == 0 ? 1 : 0; // the eight at the corners add nothing
-      for (int x = -side; x <= side; ++x) consider(named[row + x], point, sheetHalf, nearest);
-    }
+  for (int step = 1; step < APRON * APRON * APRON; step *= APRON) { // those farther away add little
+    consider(named[own - step], point, sheetHalf, nearest);
+    consider(named[own + step], point, sheetHalf, nearest);
+  }
   // Farther away what is nearest may lie outside the sweeps' window. It is farther than the coarse texels of a tile and
   // those beside it lie apart, 13.9: what has no candidate there has the sign of the tile's nearest to a surface.
   if (nearest.rank * cascade.texel.y > float(COARSE * sweepReach(cascade)) - SEED_AWAY_TEXELS) nearest.triangle = FIELD_NONE;

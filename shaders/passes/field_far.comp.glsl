@@ -20,25 +20,35 @@ uniform uint listLength;
 const int APRON = COARSE_TILE + 2;
 shared float coarseTexels[APRON * APRON * APRON];
 shared uint coarseNodes[COARSE_TILE_TEXELS];
+shared uint unsure[FIELD_TILE_TEXELS]; // texels to be asked for their sign together, or'ed with TOLD
+shared uint unsureCount;
 shared bool isTorn; // signs of the tile contradict each other
 shared bool hasSide[2]; // any coarse texel is outside, inside
 
 // Coarse neighbours lie two texels apart. Of opposite signs their distances sum to no more, and what candidates err by.
 const float TORN_TEXELS = 2.0 + 0.8;
+const uint TOLD = 0x8000u;
 // From a texel to the farthest of the eight coarse ones around it, 1.5 along each axis, and the same.
 const float TOLD_TEXELS = 2.5980762 + 0.6;
 
+// The k-th of two that a thread has of the apron's places; the last is had by several.
+int placeOf(int k) { return min(int(gl_LocalInvocationIndex) + 128 * k, APRON * APRON * APRON - 1); }
+
 void load(ListedTile tile, FieldCascade cascade, float unknown) {
-  if (gl_LocalInvocationIndex == 0u) isTorn = hasSide[0] = hasSide[1] = false;
+  if (gl_LocalInvocationIndex == 0u) unsureCount = 0u, isTorn = hasSide[0] = hasSide[1] = false;
   barrier();
   ivec3 firstCoarse = tile.firstTexel / COARSE, first = cascade.window.xyz / COARSE;
-  for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += 128) {
+  // Both reads stand together: they are waited for once.
+  float texels[2];
+  for (int k = 0; k < 2; ++k) {
     // Beyond the window's border stand the values of the border.
-    ivec3 coarse = clamp(firstCoarse - 1 + cubeIndex(i, APRON), first, first + cascade.window.w / COARSE - 1);
-    float texels = coarseValue(cascade, coarse);
-    texels = texels == UNKNOWN_TEXELS ? unknown : texels;
-    coarseTexels[i] = texels;
-    hasSide[texels < 0.0 ? 1 : 0] = true;
+    ivec3 coarse = firstCoarse - 1 + cubeIndex(placeOf(k), APRON);
+    texels[k] = coarseValue(cascade, clamp(coarse, first, first + cascade.window.w / COARSE - 1));
+  }
+  for (int k = 0; k < 2; ++k) {
+    if (texels[k] == UNKNOWN_TEXELS) texels[k] = unknown;
+    coarseTexels[placeOf(k)] = texels[k];
+    hasSide[texels[k] < 0.0 ? 1 : 0] = true;
   }
   if (gl_LocalInvocationIndex < COARSE_TILE_TEXELS) {
     uint triangle = candidates[coarseWord(cascade, firstCoarse) + gl_LocalInvocationIndex];
@@ -93,7 +103,6 @@ float between(ivec3 at, Around texels) {
 // isTold  the coarse ones around it lie so deep inside that it does as well
 void reviseSign(uint at, uint cascadeIndex, FieldCascade cascade, ivec3 lattice, bool isTold) {
   uint word = nodes[at];
-  if ((word & SIGNED) != 0u && (!isTold || (word & FIELD_NODE_INSIDE) != 0u)) return;
   WorldTriangle t = triangles[triangleOfWord(keys[at])];
   if (!isClosed(t)) return;
   vec3 point = texelCenter(cascade, lattice);
@@ -141,14 +150,23 @@ void resolveReached(ListedTile tile, FieldCascade cascade) {
     float above = betweenInPlane(plane, part.xy), texels = mix(below, above, part.z);
     below = above;
     ivec3 lattice = tile.firstTexel + at;
-    if (isBand && (nodes[word] & FINE) != 0u) {
-      reviseSign(word, tile.cascade, cascade, lattice, isTorn && leastOf(around(at)) < -TOLD_TEXELS);
+    uint kept = isBand ? nodes[word] : 0u;
+    if ((kept & FINE) != 0u) {
+      bool isTold = isTorn && leastOf(around(at)) < -TOLD_TEXELS;
+      if ((kept & SIGNED) == 0u || (isTold && (kept & FIELD_NODE_INSIDE) == 0u))
+        unsure[atomicAdd(unsureCount, 1u)] = word % FIELD_TILE_TEXELS | (isTold ? TOLD : 0u);
       continue;
     }
     if (isTorn) texels = betweenTorn(at);
     ivec3 coarse = at >> 1;
     uint node = coarseNodes[(coarse.z * COARSE_TILE + coarse.y) * COARSE_TILE + coarse.x];
     storeAt(word, tile.cascade, lattice, texels, node | (texels < 0.0 ? FIELD_NODE_INSIDE : 0u));
+  }
+  barrier();
+  for (uint i = gl_LocalInvocationIndex; i < unsureCount; i += 128u) {
+    uint texel = unsure[i] % FIELD_TILE_TEXELS;
+    ivec3 lattice = tile.firstTexel + cubeIndex(int(texel), int(FIELD_TILE));
+    reviseSign(tile.word * FIELD_TILE_TEXELS + texel, tile.cascade, cascade, lattice, (unsure[i] & TOLD) != 0u);
   }
 }
 

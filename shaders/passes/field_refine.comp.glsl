@@ -17,7 +17,7 @@ layout(std430, binding = kFieldBandBinding) readonly buffer BandBlock {
 #endif
 layout(std430, binding = kFieldKeyBinding) readonly buffer KeyBlock { uint keys[]; };
 
-const int APRON = int(FIELD_TILE) + 2;
+const int APRON = int(FIELD_TILE) + 2, RIM_ROUNDS = (TILE_RIM + int(OPEN_THREADS) - 1) / int(OPEN_THREADS);
 shared uint apron[APRON * APRON * APRON];
 shared bool isKnown[27]; // of the tile and those around it: whether field_evaluate went over them
 
@@ -27,27 +27,36 @@ int apronIndex(int texel) {
   return (at.z * APRON + at.y) * APRON + at.x;
 }
 
+// Reads of one kind stand together: they are waited for once, those in a loop one after the other.
 void load(ListedTile tile, FieldCascade cascade) {
   if (gl_LocalInvocationIndex == 0u) openCount = 0u;
+  uint own[OWN_TEXELS];
+  for (int k = 0; k < OWN_TEXELS; ++k)
+    own[k] = keys[tile.word * FIELD_TILE_TEXELS + uint(k) * OPEN_THREADS + gl_LocalInvocationIndex];
   if (gl_LocalInvocationIndex < 27u) {
     ivec3 lattice = tile.firstTexel + (cubeIndex(int(gl_LocalInvocationIndex), 3) - 1) * int(FIELD_TILE);
     isKnown[gl_LocalInvocationIndex] = isInWindow(cascade, lattice) && isBandAt(cascade, lattice);
   }
   barrier();
-  for (int i = int(gl_LocalInvocationIndex); i < APRON * APRON * APRON; i += int(OPEN_THREADS)) {
-    ivec3 at = cubeIndex(i, APRON) - 1, inTiles = (at >> 3) + 1;
+  uint rim[RIM_ROUNDS];
+  int rimPlaces[RIM_ROUNDS];
+  for (int k = 0; k < RIM_ROUNDS; ++k) {
+    ivec3 place = rimPlace(min(k * int(OPEN_THREADS) + int(gl_LocalInvocationIndex), TILE_RIM - 1));
+    ivec3 at = place - 1, inTiles = (at >> 3) + 1;
     bool isHere = isKnown[(inTiles.z * 3 + inTiles.y) * 3 + inTiles.x];
-    apron[i] = isHere ? keys[texelWord(cascade, tile.firstTexel + at)] : FIELD_NONE;
+    rimPlaces[k] = (place.z * APRON + place.y) * APRON + place.x;
+    rim[k] = isHere ? keys[texelWord(cascade, tile.firstTexel + at)] : FIELD_NONE;
   }
-  barrier();
   uint mine = 0u;
   for (int k = 0; k < OWN_TEXELS; ++k) {
-    int texel = k * int(OPEN_THREADS) + int(gl_LocalInvocationIndex);
-    if (apron[apronIndex(texel)] != FIELD_NONE)
+    uint texel = uint(k) * OPEN_THREADS + gl_LocalInvocationIndex;
+    apron[apronIndex(int(texel))] = own[k];
+    if (own[k] != FIELD_NONE)
       mine |= 1u << k;
     else // nothing is known of it here
-      nodes[texelWord(cascade, tile.firstTexel + cubeIndex(texel, int(FIELD_TILE)))] = 0u;
+      nodes[tile.word * FIELD_TILE_TEXELS + texel] = 0u;
   }
+  for (int k = 0; k < RIM_ROUNDS; ++k) apron[rimPlaces[k]] = rim[k];
   listOpen(mine);
   barrier();
 }

@@ -23,9 +23,9 @@ void main() {
   ivec3 coarse = tile.firstTexel / COARSE + cubeIndex(int(gl_LocalInvocationIndex), COARSE_TILE);
   if (gl_LocalInvocationIndex < 2u) found[gl_LocalInvocationIndex] = 0u;
   barrier();
-  uint key = FIELD_NONE;
-  for (int i = 0; i < 8; ++i)
-    key = min(key, keys[texelWord(cascade, coarse * COARSE + ivec3(i & 1, i >> 1 & 1, i >> 2))]);
+  uint key = FIELD_NONE, first = texelWord(cascade, coarse * COARSE); // the other seven lie in the same tile
+  for (uint i = 0u; i < 8u; ++i)
+    key = min(key, keys[first + (i & 1u) + (i >> 1 & 1u) * FIELD_TILE + (i >> 2) * FIELD_TILE * FIELD_TILE]);
   bool isTouched = isKey(key) && rankTexelsOfKey(key) <= TOUCHED_TEXELS;
   seeds[coarseWord(cascade, coarse)] = isTouched ? triangleOfWord(key) : FIELD_NONE;
   if (isTouched) atomicOr(found[gl_LocalInvocationIndex >> 5u], 1u << (gl_LocalInvocationIndex & 31u));

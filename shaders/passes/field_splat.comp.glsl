@@ -14,34 +14,38 @@ layout(std430, binding = kFieldSplatBinding) buffer PartBlock {
 uniform uint listLength;
 
 const float MOST_TEXELS_OF_ONE_THREAD = 128.0;
+const float MOST_TEXELS_OF_ONE_PART = float(SPLAT_PART_TEXELS * SPLAT_PART_TEXELS * SPLAT_PART_TEXELS);
 // From a part's centre to its outermost texel centres, sqrt(3) * 7.5, and rounding.
 const float PART_HALF_DIAGONAL = 12.990382 + 0.01;
 
 shared uint larger[GATHER_TRIANGLES];
 shared uint largerCount;
 
-// One loop: threads of unlike boxes go through it together.
+// One loop: threads of unlike boxes go through it together. Texels are counted from where the triangle's own box begins,
+// whatever of it is made anew: they get the same keys in every bit.
 void splatWhole(FieldCascade cascade, SplatTriangle t, SplatBox box) {
+  vec3 begin = ceil(t.low - (SPLAT_TEXELS + 0.5)), corner = inFrame(t, begin + 0.5);
+  vec3 stepX = vec3(t.along.x, t.up.x, t.normal.x), stepY = vec3(t.along.y, t.up.y, t.normal.y);
+  vec3 stepZ = vec3(t.along.z, t.up.z, t.normal.z);
+  vec3 first = vec3(box.lower) - begin, steps = first;
   ivec3 at = box.lower;
-  int endX = box.lower.x + box.alongX, endY = box.lower.y + box.plane / box.alongX;
+  int endX = at.x + box.alongX, endY = at.y + box.plane / box.alongX;
+  int tiles = cascade.window.w >> 3;
+  vec3 row = corner + steps.y * stepY + steps.z * stepZ;
+  uvec3 parts = texelWordParts(cascade, at);
+  uint rowWord = cascade.buffers.x + parts.y + parts.z;
   for (int i = 0; i < box.count; ++i) {
-    splatAt(cascade, t, at);
-    if (++at.x < endX) continue;
-    at.x = box.lower.x;
-    if (++at.y == endY) at.y = box.lower.y, ++at.z;
+    uint alongX = uint(at.x >> 3 & tiles - 1) * FIELD_TILE_TEXELS + uint(at.x & 7);
+    splatInFrame(t, row + steps.x * stepX, rowWord + alongX);
+    ++at.x, steps.x += 1.0;
+    if (at.x < endX) continue;
+    at.x = box.lower.x, steps.x = first.x;
+    ++at.y, steps.y += 1.0;
+    if (at.y == endY) at.y = box.lower.y, steps.y = first.y, ++at.z, steps.z += 1.0;
+    row = corner + steps.y * stepY + steps.z * stepZ;
+    parts = texelWordParts(cascade, at);
+    rowWord = cascade.buffers.x + parts.y + parts.z;
   }
-}
-
-void splatTriangleOf(uint cascadeIndex, FieldCascade cascade, uint number) {
-  if ((triangles[number].codes.w & WORLD_TRIANGLE_EMPTY) != 0u) return;
-  SplatTriangle t = splatTriangle(cascade, number);
-  SplatBox box = splatPart(cascadeIndex, cascade, t, SPLAT_WHOLE);
-  if (box.count == 0) return;
-  // Whatever is made anew of what it reaches: the same triangle goes the same way, to the same keys in every bit.
-  if (reachedTexels(t) > MOST_TEXELS_OF_ONE_THREAD)
-    larger[atomicAdd(largerCount, 1u)] = number;
-  else
-    splatWhole(cascade, t, box);
 }
 
 void listPart(uint cascadeIndex, FieldCascade cascade, SplatTriangle t, uint part) {
@@ -50,17 +54,29 @@ void listPart(uint cascadeIndex, FieldCascade cascade, SplatTriangle t, uint par
     parts[place] = uvec2(t.number, cascadeIndex << SPLAT_CASCADE_SHIFT | part);
     return;
   }
-  splatWhole(cascade, t, splatPart(cascadeIndex, cascade, t, part)); // slower, but as right
+  SplatBox box = splatPart(cascadeIndex, cascade, t, part); // slower, but the same in every bit
+  for (int i = 0; i < box.count; ++i) splatAt(cascade, t, texelOfBox(box, i));
+}
+
+void splatTriangleOf(uint cascadeIndex, FieldCascade cascade, uint number) {
+  if ((triangles[number].codes.w & WORLD_TRIANGLE_EMPTY) != 0u) return;
+  SplatTriangle t = splatTriangle(cascade, number);
+  SplatBox box = splatPart(cascadeIndex, cascade, t, SPLAT_WHOLE);
+  if (box.count == 0) return;
+  // Whatever is made anew of what it reaches: the same triangle goes the same way, to the same keys in every bit.
+  float reached = reachedTexels(t);
+  if (reached <= MOST_TEXELS_OF_ONE_THREAD)
+    splatWhole(cascade, t, box);
+  else if (reached <= MOST_TEXELS_OF_ONE_PART)
+    listPart(cascadeIndex, cascade, t, SPLAT_WHOLE);
+  else
+    larger[atomicAdd(largerCount, 1u)] = number;
 }
 
 // The group's threads take a part each.
 void listParts(uint cascadeIndex, FieldCascade cascade, SplatTriangle t) {
   const int side = int(SPLAT_PART_TEXELS);
   uint thread = gl_LocalInvocationIndex;
-  if (reachedTexels(t) <= float(side * side * side)) {
-    if (thread == 0u) listPart(cascadeIndex, cascade, t, SPLAT_WHOLE);
-    return;
-  }
   ivec3 lower, upper;
   splatBounds(cascadeIndex, t, lower, upper);
   // A part's half extent along the normal, and the reach of the keys.

@@ -29,7 +29,7 @@ void dispatchList(Program& program, std::uint32_t length) {
 void betweenDispatches() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); }
 
 // Of work whose number the GPU alone knows; each takes some until none is left.
-constexpr GLuint kPartGroups = 2048, kBandGroups = 4096, kSearchGroups = 4096;
+constexpr GLuint kPartGroups = 2048, kBandGroups = 8192, kSearchGroups = 4096;
 
 } // namespace
 
