@@ -30,7 +30,7 @@ struct Joined {
   float metres;
   uint word;
   FieldSearch search; // object FIELD_NONE: none
-  float bound;        // of its object
+  float least;        // that its object's value may be
 };
 
 void join(Place place, FieldObject object, float value, inout Joined joined) {
@@ -72,25 +72,28 @@ float upperBy(FieldObject object, vec3 pointGrid, vec3 at, BrickReading reading)
   return object.instance.boxMax.w * (distance(pointGrid, at) + inner);
 }
 
-// Whether an object may be the nearest. How deep inside is not known from below.
-bool mayBeNearer(float bound, float metres) { return bound < 0.0 || bound < metres; }
+// The least that a value may be which is to be searched for, metres.
+float leastSearched(FieldObject object, ObjectDistance bound, BrickReading reading) {
+  if (bound.side > 0.0) return bound.lower;
+  float deepest = object.instance.boxMax.w * (abs(reading.grid) + KINK_VOXELS * reading.voxel);
+  return (reading.cell & CELL_EMPTY) != 0u ? -1e30 : -deepest;
+}
 
-// Lists an object to be searched. Where there is no row left, what is known of it from below joins: no ray steps through.
+// Lists an object to be searched.
 //
-// bound  metres, negative inside: no distance is nearer to the surface
-void listSearch(Place place, FieldObject object, uint number, float bound, inout Joined joined) {
-  if (joined.search.object == FIELD_NONE || !mayBeNearer(joined.bound, joined.metres)) {
+// least   metres
+// returns false where there is no row left
+bool listSearch(uint number, float least, inout Joined joined) {
+  if (joined.search.object == FIELD_NONE || joined.least >= joined.metres) {
     joined.search.object = number;
-    joined.bound = bound;
-    return;
+    joined.least = least;
+    return true;
   }
   uint row = atomicAdd(searchCount, 1u);
-  if (row < uint(searches.length())) {
-    searches[row] = FieldSearch(FIELD_NONE, number, joined.search.more, bound);
-    joined.search.more = row;
-  } else {
-    join(place, object, bound, joined);
-  }
+  if (row >= uint(searches.length())) return false;
+  searches[row] = FieldSearch(FIELD_NONE, number, joined.search.more, least);
+  joined.search.more = row;
+  return true;
 }
 
 // Lets an object join, or lists it to be searched. One loop, and one place in it that reads: first the distance, then
@@ -127,8 +130,9 @@ void joinObject(Place place, uint number, vec3 point, inout Joined joined) {
     }
     bool isNear = bound.upper < FADED_TEXELS * texel;
     if (!isKnown || (isNear && !isAround)) { // in the box the way to the surface is not known
-      listSearch(place, object, number, bound.side * bound.lower, joined);
-      return;
+      if (listSearch(number, leastSearched(object, bound, reading), joined)) return;
+      bound.upper = bound.lower; // what is known from below joins: no ray steps through
+      break;
     }
     if (!isNear || !placeBehind(object, bound, at)) break;
     isKnown = false;
@@ -198,7 +202,7 @@ void main() {
   joined.metres = before;
   joined.word = nodes[nodeAt];
   joined.search = FieldSearch(nodeAt, FIELD_NONE, FIELD_NONE, 0.0);
-  joined.bound = 0.0;
+  joined.least = 0.0;
   uint wordBefore = joined.word;
   atomicMax(farthestBits, floatBitsToUint(max(before, 0.0))); // positive floats are ordered as their bits
   barrier();
@@ -208,7 +212,7 @@ void main() {
     barrier();
   }
   bool isOpen = joined.search.object != FIELD_NONE &&
-                (joined.search.more != FIELD_NONE || mayBeNearer(joined.bound, joined.metres));
+                (joined.search.more != FIELD_NONE || joined.least < joined.metres);
   uint rank = isOpen ? atomicAdd(ownSearches, 1u) : 0u;
   barrier();
   if (gl_LocalInvocationIndex == 0u && ownSearches > 0u) {
@@ -222,7 +226,7 @@ void main() {
     searches[row] = joined.search;
   } else if (isOpen) {
     FieldSearch lost = joined.search;
-    lost.metres = joined.bound;
+    lost.metres = joined.least;
     for (;;) {
       join(place, objectAt(place, lost.object), lost.metres, joined);
       if (lost.more == FIELD_NONE) break;

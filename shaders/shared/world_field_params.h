@@ -117,7 +117,7 @@ struct FieldSearch {
   uint texel;   // its word in the buffers of a word a texel; FIELD_NONE: one more of another row's
   uint object;  // number of the instance
   uint more;    // row of the next one of the texel, or FIELD_NONE; then the node's word
-  float metres; // distance so far; of one more of another row's its bound from below
+  float metres; // distance so far; of one more of another row's the least that it may be
 };
 SHARED_ASSERT_SIZE(FieldSearch, 16)
 
