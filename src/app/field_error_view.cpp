@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "field/field_volume.h"
@@ -27,8 +28,21 @@ glm::vec3 heat(double unit) {
                     0.0f, 1.0f);
 }
 
-glm::vec3 colorOf(const FieldVolume& volume, double texels, const FieldTruth& truth) {
-  const double expected = truth.unionDistance(0.5 * volume.texelSize) / volume.texelSize;
+// The meshes together, whose buried surfaces count, and each SDF object alone, of which the least value counts.
+std::vector<FieldOracle> oraclesOf(const Scene& scene, const Pose& pose, const std::vector<int>& fieldOfNode) {
+  std::vector<FieldOracle> oracles;
+  oracles.emplace_back(scene, pose, fieldOfNode);
+  for (const PosedInstance& instance : pose.instances) {
+    if (fieldOfNode[static_cast<std::size_t>(instance.node)] < 0) continue;
+    Pose alone = pose;
+    alone.instances = {instance};
+    oracles.emplace_back(scene, alone);
+  }
+  return oracles;
+}
+
+// texels  as found
+glm::vec3 colorOf(double texels, double expected) {
   if ((texels < 0) != (expected < 0) && std::min(std::abs(texels), std::abs(expected)) > kSidelessTexels)
     return {1, 0, 1};
   // A value may stand for all that is farther, out to the side it is on.
@@ -52,7 +66,7 @@ const DebugView* fieldErrorView() {
 }
 
 RgbImage fieldErrorPicture(const FieldVolumes& field, const FieldPicture& plane, glm::uvec2 size, const Scene& scene,
-                           const Pose& pose) {
+                           const Pose& pose, const std::vector<int>& fieldOfNode) {
   std::span<const FieldVolume> shown(field.cascades);
   if (plane.cascade >= 0) shown = shown.subspan(static_cast<std::size_t>(plane.cascade), 1);
   std::vector<FieldSample> samples;
@@ -67,7 +81,12 @@ RgbImage fieldErrorPicture(const FieldVolumes& field, const FieldPicture& plane,
       world.push_back(anchored + field.anchorWorld);
       texelMetres.push_back(sample.cascade < 0 ? 0 : shown[static_cast<std::size_t>(sample.cascade)].texelSize);
     }
-  const std::vector<FieldTruth> truths = FieldOracle(scene, pose).at(world, texelMetres);
+  std::vector<double> expected(samples.size(), std::numeric_limits<double>::infinity()); // metres
+  for (const FieldOracle& oracle : oraclesOf(scene, pose, fieldOfNode)) {
+    const std::vector<FieldTruth> truths = oracle.at(world, texelMetres);
+    for (std::size_t i = 0; i < truths.size(); ++i)
+      expected[i] = std::min(expected[i], truths[i].unionDistance(0.5 * texelMetres[i]));
+  }
   RgbImage image{size, {}};
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const FieldSample& sample = samples[i];
@@ -75,8 +94,7 @@ RgbImage fieldErrorPicture(const FieldVolumes& field, const FieldPicture& plane,
       image.pixels.emplace_back(0.12f);
       continue;
     }
-    const FieldVolume& volume = shown[static_cast<std::size_t>(sample.cascade)];
-    image.pixels.push_back(colorOf(volume, sample.distanceWorld / volume.texelSize, truths[i]));
+    image.pixels.push_back(colorOf(sample.distanceWorld / texelMetres[i], expected[i] / texelMetres[i]));
   }
   return image;
 }
@@ -85,7 +103,8 @@ RgbImage fieldErrorPicture(const FieldVolumes& field, const FieldPicture& plane,
 
 const DebugView* fieldErrorView() { return nullptr; }
 
-RgbImage fieldErrorPicture(const FieldVolumes&, const FieldPicture&, glm::uvec2, const Scene&, const Pose&) {
+RgbImage fieldErrorPicture(const FieldVolumes&, const FieldPicture&, glm::uvec2, const Scene&, const Pose&,
+                           const std::vector<int>&) {
   throw BadInput("--view", "field-error", "is not in a build without bakers");
 }
 

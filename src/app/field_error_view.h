@@ -13,11 +13,12 @@ const DebugView* fieldErrorView();
 /// Blue no error, red half a texel or more, of the cascade that answers; magenta: on the wrong side; grey: not held.
 /// Where the field ends at its range or border only what it says too much is an error. Sheets count as half a texel
 /// thick to each side. The truth of SDF objects is that of the meshes they were baked from: what baking costs shows
-/// too.
+/// too. Where they reach into each other it is the least of them, the deepest.
 ///
+/// fieldOfNode  as SceneFields has it: nodes with 0 or more are SDF objects
 /// cost       a query of all closed parts a pixel
 /// proved by  tests/render/field_error_view_test.cpp
 RgbImage fieldErrorPicture(const FieldVolumes& field, const FieldPicture& plane, glm::uvec2 size, const Scene& scene,
-                           const Pose& pose);
+                           const Pose& pose, const std::vector<int>& fieldOfNode);
 
 } // namespace brickfield

@@ -195,7 +195,8 @@ void runRender(RenderRequest request) {
   run.drawSeconds = stopwatch.seconds();
   RgbImage picture = displayImage(layers, renderer.readPicture());
   if (showsFieldError(request))
-    picture = fieldErrorPicture(renderer.readWorldField(), renderer.fieldPicture(), layers.size, scene, loaded.pose);
+    picture = fieldErrorPicture(renderer.readWorldField(), renderer.fieldPicture(), layers.size, scene, loaded.pose,
+                                loaded.baked.fields.fieldOfNode);
   if (!request.stats.empty()) run.last = countFrame(request, run.view, renderer);
   if (const std::vector<std::string> errors = loaded.context->takeGlErrors(); !errors.empty())
     throw Failure("OpenGL: " + errors.front());

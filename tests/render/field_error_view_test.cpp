@@ -1,6 +1,7 @@
 // The picture of the world field's errors: dark where the exact field is right, and not where it is made wrong.
 #include "app/field_error_view.h"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
 #include "tests/support/gl_fixture.h"
@@ -27,7 +28,9 @@ protected:
     field_ = renderer->readWorldField();
     plane_ = renderer->fieldPicture();
   }
-  RgbImage picture() const { return fieldErrorPicture(field_, plane_, kSize, scene_.scene(), scene_.pose()); }
+  RgbImage picture() const {
+    return fieldErrorPicture(field_, plane_, kSize, scene_.scene(), scene_.pose(), scene_.fields().fieldOfNode);
+  }
   template <typename Is>
   static std::size_t count(const RgbImage& image, Is is) {
     return static_cast<std::size_t>(std::count_if(image.pixels.begin(), image.pixels.end(), is));
@@ -73,12 +76,32 @@ TEST_F(FieldErrorView, IsDarkWhereTheFieldOfObjectsIsRight) {
   renderer->render(scene.autoView(kSize));
   FieldVolumes field = renderer->readWorldField();
   const auto countLight = [&] {
-    const RgbImage image = fieldErrorPicture(field, renderer->fieldPicture(), kSize, scene.scene(), scene.pose());
+    const RgbImage image = fieldErrorPicture(field, renderer->fieldPicture(), kSize, scene.scene(), scene.pose(),
+                                             scene.fields().fieldOfNode);
     return std::count_if(image.pixels.begin(), image.pixels.end(), [](glm::vec3 color) { return color.x > 0.2f; });
   };
   EXPECT_LT(countLight(), 30);
   for (float& texels : field.cascades[0].distances) texels += 0.4f;
   EXPECT_GT(countLight(), 500);
+}
+
+// Inside both of two objects the deeper counts, not the surface that lies buried.
+TEST_F(FieldErrorView, IsDarkWhereObjectsReachIntoEachOther) {
+  Scene spheres = makeTorusAlone();
+  spheres.meshes[0] = makeSphereMesh(0.5f, 48, 96);
+  Node second = spheres.nodes[0];
+  second.matrix = glm::translate(glm::mat4(1), {0.5f, 0, 0});
+  spheres.scenes[0].nodes.push_back(static_cast<int>(spheres.nodes.size()));
+  spheres.nodes.push_back(second);
+  const TestScene scene(std::move(spheres), "all", 64);
+  RendererSettings settings;
+  settings.view = "field";
+  settings.worldField.shape = {1, 64, 0, true};
+  const auto renderer = scene.makeRenderer(context().info(), settings);
+  renderer->render(scene.autoView(kSize));
+  const RgbImage image = fieldErrorPicture(renderer->readWorldField(), renderer->fieldPicture(), kSize, scene.scene(),
+                                           scene.pose(), scene.fields().fieldOfNode);
+  EXPECT_LT(count(image, [](glm::vec3 color) { return color.x > 0.2f; }), 30u);
 }
 
 } // namespace
