@@ -61,11 +61,7 @@ void blockDistances(const BlockRequest& request, std::span<float, kBrickSampleCo
                     std::span<std::uint32_t, kBrickSampleCount> nearest, BlockHeights* heights) {
   Frames frames;
   const BlockResults results{distances.data(), nearest.data(), heights ? heights->data() : nullptr};
-  if (activeSimd() == SimdLevel::Avx2) {
-    avx2::measureBlock(request, frames.data(), results);
-    return;
-  }
-  portable::measureBlock(request, frames.data(), results);
+  BRICKFIELD_BEST_SIMD(measureBlock(request, frames.data(), results));
 }
 
 } // namespace brickfield

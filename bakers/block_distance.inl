@@ -101,13 +101,17 @@ struct FrameDistances {
   Wide squared, height, inward;
 };
 /// The forms are taken at the first point together, a form a lane.
+///
+/// kIsUnit  the points are one apart
+template <bool kIsUnit = false>
 WIDE_INLINE FrameDistances frameDistances(const BlockFrame& frame, const EightPoints& points) {
   const Wide atFirst = wide(points.first.x) * wide(frame.x) + wide(points.first.y) * wide(frame.y) +
                        wide(points.first.z) * wide(frame.z) - wide(frame.offset);
   float firsts[8];
   std::memcpy(firsts, &atFirst, sizeof(firsts));
+  asm("" : "+m"(firsts)); // to be read back lane by lane: loads are cheaper than the shuffles that would replace them
   const auto form = [&](std::size_t k) __attribute__((always_inline)) {
-    return wide(firsts[k]) + wide(points.step) * wide(frame.steps[k]);
+    return wide(firsts[k]) + (kIsUnit ? wide(frame.steps[k]) : wide(points.step) * wide(frame.steps[k]));
   };
   const Wide zero = wide(0.0f), height = form(kHeight);
   Wide within = wide(HUGE_VALF), leastInward = wide(HUGE_VALF);
@@ -191,7 +195,7 @@ WIDE_INLINE void measureEight(const BlockRequest& request, const BlockFrame* fra
   Wide best = wide(request.most * request.most), height = wide(HUGE_VALF), inward = wide(0.0f);
   WideMask bestPlace{-1, -1, -1, -1, -1, -1, -1, -1};
   for (const std::uint16_t place : picked) {
-    const FrameDistances found = frameDistances(frames[place], points);
+    const FrameDistances found = frameDistances<true>(frames[place], points);
     const WideMask isNearer = found.squared < best;
     const std::int32_t p = place;
     best = least(found.squared, best);

@@ -92,30 +92,23 @@ void LocalRoots::close(std::size_t childCount) {
 
 NearestTriangle MeshDistance::nearest(glm::dvec3 point, double maxDistance, std::uint32_t startLeaf) const {
   const std::span root(&hierarchy_->nodes()[hierarchy_->root().index()], 1);
-  return activeSimd() == SimdLevel::Avx2 ? avx2::walkToNearest(*hierarchy_, root, point, maxDistance, startLeaf)
-                                         : portable::walkToNearest(*hierarchy_, root, point, maxDistance, startLeaf);
+  return BRICKFIELD_BEST_SIMD(walkToNearest(*hierarchy_, root, point, maxDistance, startLeaf));
 }
 
 NearestTriangle MeshDistance::nearest(const LocalRoots& roots, glm::dvec3 point, double maxDistance,
                                       std::uint32_t startLeaf) const {
   const std::span<const HierarchyNode> nodes = std::span(roots.nodes).first(roots.count);
-  return activeSimd() == SimdLevel::Avx2 ? avx2::walkToNearest(*hierarchy_, nodes, point, maxDistance, startLeaf)
-                                         : portable::walkToNearest(*hierarchy_, nodes, point, maxDistance, startLeaf);
+  return BRICKFIELD_BEST_SIMD(walkToNearest(*hierarchy_, nodes, point, maxDistance, startLeaf));
 }
 
 LocalRoots MeshDistance::rootsAround(const CubeAround& cube) const {
   LocalRoots roots;
-  if (activeSimd() == SimdLevel::Avx2) {
-    avx2::walkToRoots(*hierarchy_, cube, roots);
-    return roots;
-  }
-  portable::walkToRoots(*hierarchy_, cube, roots);
+  BRICKFIELD_BEST_SIMD(walkToRoots(*hierarchy_, cube, roots));
   return roots;
 }
 
 std::size_t MeshDistance::collect(const CubeAround& cube, std::span<std::uint32_t> found) const {
-  return activeSimd() == SimdLevel::Avx2 ? avx2::walkAround(*hierarchy_, cube, found)
-                                         : portable::walkAround(*hierarchy_, cube, found);
+  return BRICKFIELD_BEST_SIMD(walkAround(*hierarchy_, cube, found));
 }
 
 ClosestTriangle MeshDistance::closest(glm::dvec3 point, double maxDistance, std::uint32_t hint) const {

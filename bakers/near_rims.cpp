@@ -99,10 +99,7 @@ NearlyTurns NearRims::turnsAt(glm::dvec3 point) const {
   if (edges_.empty()) return nearly;
   StripProduct product;
   const glm::vec3 place(offset / radius_), direction(ray_.direction());
-  if (activeSimd() == SimdLevel::Avx2)
-    avx2::multiplyStrips(edges_, direction, place, product);
-  else
-    portable::multiplyStrips(edges_, direction, place, product);
+  BRICKFIELD_BEST_SIMD(multiplyStrips(edges_, direction, place, product));
   if (!product.isClear) return {0, HUGE_VAL};
   const NearlyTurns near = turnsOf(product);
   return {nearly.turns + near.turns, nearly.slack + near.slack};
@@ -118,9 +115,7 @@ std::optional<WindingAround> NearRims::around(glm::dvec3 center, double radius) 
     NearField field;
     const glm::vec3 place(offset / radius_), direction(ray_.direction());
     const auto relativeRadius = static_cast<float>(radius / radius_);
-    const bool isClear = activeSimd() == SimdLevel::Avx2
-                             ? avx2::sumField(edges_, direction, place, relativeRadius, product, field)
-                             : portable::sumField(edges_, direction, place, relativeRadius, product, field);
+    const bool isClear = BRICKFIELD_BEST_SIMD(sumField(edges_, direction, place, relativeRadius, product, field));
     if (!isClear) return std::nullopt;
     const NearlyTurns near = turnsOf(product);
     const double slopeSlack = 2.0 * 8.0 * double{kRounding} * field.slopeError / (kFourPi * radius_);

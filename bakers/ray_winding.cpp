@@ -79,8 +79,6 @@ RayWinding::Ray RayWinding::rayFrom(glm::dvec3 point) const {
   return ray;
 }
 
-int RayWinding::crossings(const Ray& ray) const {
-  return activeSimd() == SimdLevel::Avx2 ? avx2::crossings(*hierarchy_, ray) : portable::crossings(*hierarchy_, ray);
-}
+int RayWinding::crossings(const Ray& ray) const { return BRICKFIELD_BEST_SIMD(crossings(*hierarchy_, ray)); }
 
 } // namespace brickfield

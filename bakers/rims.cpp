@@ -175,19 +175,14 @@ namespace {
 template <bool kWithSlope>
 FanSums fanOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, glm::dvec3 apex, glm::dvec3 point) {
   FanSums sums;
-  if (activeSimd() == SimdLevel::Avx2) {
-    avx2::multiplyFan<kWithSlope>(edges, frame, apex, point, sums);
-    return sums;
-  }
-  portable::multiplyFan<kWithSlope>(edges, frame, apex, point, sums);
+  BRICKFIELD_BEST_SIMD(multiplyFan<kWithSlope>(edges, frame, apex, point, sums));
   return sums;
 }
 
 /// returns false where an edge comes into the ball
 bool addFieldOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, glm::dvec3 point, double radius,
                 FieldSums& sums) {
-  return activeSimd() == SimdLevel::Avx2 ? avx2::addField(edges, frame, point, radius, sums)
-                                         : portable::addField(edges, frame, point, radius, sums);
+  return BRICKFIELD_BEST_SIMD(addField(edges, frame, point, radius, sums));
 }
 
 } // namespace
@@ -195,8 +190,7 @@ bool addFieldOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame,
 namespace {
 
 StripSums stripsOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, const RayWinding::Ray& ray) {
-  return activeSimd() == SimdLevel::Avx2 ? avx2::multiplyStrips(edges, frame, ray)
-                                         : portable::multiplyStrips(edges, frame, ray);
+  return BRICKFIELD_BEST_SIMD(multiplyStrips(edges, frame, ray));
 }
 
 void add(AngleSum& sum, const StripSums& strips) {

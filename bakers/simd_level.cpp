@@ -9,7 +9,10 @@ namespace {
 
 SimdLevel bestOfProcessor() {
 #if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") ? SimdLevel::Avx2 : SimdLevel::Portable;
+  if (!__builtin_cpu_supports("avx2")) return SimdLevel::Portable;
+  const bool hasMasks = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+  return hasMasks ? SimdLevel::Avx512 : SimdLevel::Avx2;
 #else
   return SimdLevel::Portable;
 #endif

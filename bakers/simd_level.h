@@ -3,7 +3,9 @@
 
 namespace brickfield {
 
-enum class SimdLevel { Portable, Avx2 }; ///< Portable: what every processor of the build has, SSE2 on x86
+/// Portable: what every processor of the build has, SSE2 on x86. Avx512: vectors of eight floats all the same, but
+/// twice the registers, and masks.
+enum class SimdLevel { Portable, Avx2, Avx512 };
 
 /// The best that this processor has and that limitSimd allows.
 SimdLevel activeSimd();

@@ -153,9 +153,7 @@ float WindingNumber::exactlyAt(glm::dvec3 point) const { return turns(point, kNo
 float WindingNumber::turns(glm::dvec3 point, float farRadii) const {
   const glm::vec3 p(point);
   const double whole = 4.0 * std::numbers::pi;
-  if (activeSimd() == SimdLevel::Avx2)
-    return static_cast<float>(avx2::solidAngle(*hierarchy_, moments_.data(), p, farRadii) / whole);
-  return static_cast<float>(portable::solidAngle(*hierarchy_, moments_.data(), p, farRadii) / whole);
+  return static_cast<float>(BRICKFIELD_BEST_SIMD(solidAngle(*hierarchy_, moments_.data(), p, farRadii)) / whole);
 }
 
 } // namespace brickfield

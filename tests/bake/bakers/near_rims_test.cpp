@@ -134,7 +134,7 @@ TEST(NearRims, AreTheSameWithAndWithoutAvx2) {
     EXPECT_EQ(near->turnsAt(center).turns, turns.turns);
     EXPECT_EQ(near->turnsAt(center).slack, turns.slack);
     const std::optional<WindingAround> narrow = near->around(center, 0.02);
-    limitSimd(SimdLevel::Avx2);
+    limitSimd(SimdLevel::Avx512);
     ASSERT_EQ(narrow.has_value(), around.has_value());
     if (!around) continue;
     EXPECT_EQ(narrow->fraction, around->fraction);

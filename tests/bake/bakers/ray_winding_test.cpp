@@ -143,6 +143,6 @@ TEST(RayWinding, IsTheSameWithAndWithoutAvx2) {
     const int turns = winding.at(point);
     limitSimd(SimdLevel::Portable);
     EXPECT_EQ(winding.at(point), turns);
-    limitSimd(SimdLevel::Avx2);
+    limitSimd(SimdLevel::Avx512);
   }
 }

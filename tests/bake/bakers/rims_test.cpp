@@ -190,7 +190,7 @@ TEST(Rims, AreTheSameWithAndWithoutAvx2) {
     EXPECT_EQ(rims.mostChange(point, 0.01), change);
     EXPECT_EQ(rims.slopeAt(point), slope);
     EXPECT_EQ(rims.fractionAndSlopeAt(point).slope, slopeOfBoth);
-    limitSimd(SimdLevel::Avx2);
+    limitSimd(SimdLevel::Avx512);
   }
 }
 
