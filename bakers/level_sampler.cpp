@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "bakers/brick_sampler.h"
+#include "bakers/cell_bounds.h"
 #include "bakers/float4.h"
 
 namespace brickfield {
@@ -18,104 +19,7 @@ namespace {
 constexpr std::size_t kSamples = kBrickSampleCount;
 // A point of a brick's surface is at most half a cell's face diagonal from a sample of it.
 constexpr double kFaceHalfDiagonalVoxels = 0.70710679;
-constexpr double kEighthHalfDiagonalVoxels = 0.5 * kBrickHalfDiagonalVoxels;
 constexpr double kBoundSlackVoxels = 1e-3; // over the rounding of double and of the float that stores the bound
-
-/// Lower bound, in voxels, of the distance to any surface at a point; and whether a slab holds it.
-struct PointBound {
-  double voxels = std::numeric_limits<double>::infinity();
-  bool inSheet = false;
-};
-
-/// A query that knows how far the last one was from its surface: a walk of so much farther is the most that can follow.
-class PathOfPoints {
-public:
-  explicit PathOfPoints(const MeshDistance& surface) : surface_(surface) {}
-
-  /// limit  nothing is found where the surface is farther away
-  NearestTriangle nearest(glm::dvec3 point, double limit = HUGE_VAL) {
-    distance_ = (distance_ + glm::length(point - point_)) * kPathSlack, point_ = point;
-    const NearestTriangle found = surface_.nearest(point, std::min(distance_, limit), leaf_);
-    if (found.triangle != kNoTriangle) distance_ = found.distance, leaf_ = found.leaf;
-    return found;
-  }
-
-private:
-  static constexpr double kPathSlack = 1.0 + 1e-9; // over the rounding of the sum
-
-  const MeshDistance& surface_;
-  glm::dvec3 point_{0.0};
-  double distance_ = std::numeric_limits<double>::infinity(); ///< at most; of the point
-  std::uint32_t leaf_ = kNoLeaf;
-};
-
-/// Bounds at one point after another.
-class BoundPath {
-public:
-  explicit BoundPath(const SamplingRequest& request) : request_(request) {
-    if (request.surfaces->solid) solid_.emplace(*request.surfaces->solid);
-    if (request.surfaces->sheets) sheets_.emplace(*request.surfaces->sheets);
-  }
-
-  PointBound at(glm::dvec3 point) {
-    PointBound bound;
-    const double voxelSize = request_.grid.voxelSize;
-    if (solid_) bound.voxels = std::max(0.0, solid_->nearest(point).distance / voxelSize - request_.solidGrowthVoxels);
-    if (!sheets_) return bound;
-    const SheetSlabs& slabs = *request_.surfaces->slabs;
-    const double reach = slabs.mostReach(request_.halfThickness);
-    const NearestTriangle nearest = sheets_->nearest(point, bound.voxels * voxelSize + reach);
-    if (nearest.triangle == kNoTriangle) return bound;
-    const PointOnTriangle on = closestPointOnTriangle(point, request_.soup->corners(nearest.triangle));
-    const ClosestTriangle closest{nearest.distance, nearest.triangle, on};
-    const double fromSlab = slabs.distance(point, closest, request_.halfThickness);
-    bound.inSheet = fromSlab < 0;
-    // A slab behind another sheet's triangle may reach this much nearer than the closest triangle's own.
-    const double least = slabs.areAllCentred() ? std::abs(fromSlab) : closest.distance - reach;
-    bound.voxels = std::min(bound.voxels, std::max(least, 0.0) / voxelSize);
-    return bound;
-  }
-
-private:
-  const SamplingRequest& request_;
-  std::optional<PathOfPoints> solid_, sheets_;
-};
-
-/// Bound over a whole cell. Cells that the centre cannot clear are looked at by eighths.
-float cellBound(const SamplingRequest& request, glm::ivec3 brick, BoundPath& path, bool& inSheet) {
-  const glm::dvec3 center = request.grid.brickCenter(brick);
-  const PointBound atCenter = path.at(center);
-  inSheet = atCenter.inSheet;
-  const double byCenter = atCenter.voxels - kBrickHalfDiagonalVoxels - kBoundSlackVoxels;
-  if (byCenter > kTouchVoxels || byCenter < -kEighthHalfDiagonalVoxels) return static_cast<float>(byCenter);
-  const double quarter = 0.25 * kBrickCells * request.grid.voxelSize;
-  double byEighths = std::numeric_limits<double>::infinity();
-  BoundPath eighthPath = path;
-  for (int i = 0; i < 8 && byEighths > kTouchVoxels; ++i) {
-    const glm::dvec3 corner(i & 1 ? quarter : -quarter, i & 2 ? quarter : -quarter, i & 4 ? quarter : -quarter);
-    byEighths =
-        std::min(byEighths, eighthPath.at(center + corner).voxels - kEighthHalfDiagonalVoxels - kBoundSlackVoxels);
-  }
-  return static_cast<float>(std::max(byCenter, byEighths));
-}
-
-void boundCells(const SamplingRequest& request, LevelSamples& level) {
-  level.cellBounds.resize(request.grid.cellCount());
-  level.cellInSheet.resize(request.grid.cellCount());
-  const auto rows =
-      static_cast<std::size_t>(request.grid.brickCounts.y) * static_cast<std::size_t>(request.grid.brickCounts.z);
-  const auto rowLength = static_cast<std::size_t>(request.grid.brickCounts.x);
-  tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
-    BoundPath path(request);
-    for (std::size_t cell = row * rowLength; cell < (row + 1) * rowLength; ++cell) {
-      bool inSheet = false;
-      level.cellBounds[cell] = cellBound(request, request.grid.brickOfCell(cell), path, inSheet);
-      level.cellInSheet[cell] = inSheet;
-    }
-    request.done(0);
-  });
-  level.queries += level.cellBounds.size(); // eighths are not counted
-}
 
 /// Where a brick's samples go; nothing for a surface that there is not.
 struct BrickPlaces {
@@ -147,12 +51,12 @@ public:
 
   SampleRows ownRows() const {
     SampleRows rows = allSamples();
-    forEachForeign([&](std::size_t i, std::size_t, std::size_t) {
-      rows[i / kBrickSamples] &= static_cast<std::uint8_t>(~(1u << (i % kBrickSamples)));
+    forEachForeign([&](std::size_t i, std::size_t, std::size_t, std::size_t count) {
+      rows[i / kBrickSamples] &= static_cast<std::uint8_t>(~(((1u << count) - 1) << (i % kBrickSamples)));
     });
     return rows;
   }
-  /// Calls visit(sample, slot of the owner, its sample) for the samples of others.
+  /// Calls visit(first sample, slot of the owner, its sample, count) for the rows of samples of others.
   template <typename Visit>
   void forEachForeign(Visit visit) const {
     for (std::size_t sides = 0; sides < ownerOf_.size(); ++sides) {
@@ -161,11 +65,11 @@ public:
       const std::size_t slot = slotOfCell_[grid_.cellOfBrick(brick_ + owner)];
       const auto s = static_cast<int>(sides);
       const Samples x = samplesOn(s % 3), y = samplesOn(s / 3 % 3), z = samplesOn(s / 9);
-      glm::ivec3 sample;
+      glm::ivec3 sample(x.first, 0, 0);
       for (sample.z = z.first; sample.z <= z.last; ++sample.z)
         for (sample.y = y.first; sample.y <= y.last; ++sample.y)
-          for (sample.x = x.first; sample.x <= x.last; ++sample.x)
-            visit(sampleIndex(sample), slot, sampleIndex(sample - kBrickCells * owner));
+          visit(sampleIndex(sample), slot, sampleIndex(sample - kBrickCells * owner),
+                static_cast<std::size_t>(x.last - x.first + 1));
     }
   }
 
@@ -239,15 +143,15 @@ private:
   void copyForeign(std::size_t slot) {
     const BrickPlaces to = samplesAt(slot * kSamples);
     SharedSamples(request_.grid, slotOfCell_, request_.grid.brickOfCell(candidates_[slot]))
-        .forEachForeign([&](std::size_t sample, std::size_t owner, std::size_t ownerSample) {
+        .forEachForeign([&](std::size_t sample, std::size_t owner, std::size_t ownerSample, std::size_t count) {
           const BrickPlaces from = samplesAt(owner * kSamples);
-          if (to.solidDistances) {
-            to.solidDistances[sample] = from.solidDistances[ownerSample];
-            to.solidTriangles[sample] = from.solidTriangles[ownerSample];
+          for (std::size_t i = 0; i < count && to.solidDistances; ++i) {
+            to.solidDistances[sample + i] = from.solidDistances[ownerSample + i];
+            to.solidTriangles[sample + i] = from.solidTriangles[ownerSample + i];
           }
-          if (to.sheetDistances) {
-            to.sheetDistances[sample] = from.sheetDistances[ownerSample];
-            to.sheetTriangles[sample] = from.sheetTriangles[ownerSample];
+          for (std::size_t i = 0; i < count && to.sheetDistances; ++i) {
+            to.sheetDistances[sample + i] = from.sheetDistances[ownerSample + i];
+            to.sheetTriangles[sample + i] = from.sheetTriangles[ownerSample + i];
           }
         });
   }
