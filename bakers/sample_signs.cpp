@@ -120,6 +120,7 @@ private:
 };
 
 constexpr int kBlockCells = 8;
+constexpr int kCellHalvings = 2; // what more would clear costs as much as it saves
 
 class CellBlocks {
 public:
@@ -138,13 +139,34 @@ private:
     const glm::ivec3 end = glm::min(first + side, grid_.brickCounts);
     if (glm::any(glm::greaterThanEqual(first, end))) return;
     const glm::dvec3 low = grid_.sample(first, glm::ivec3(0)), high = grid_.sample(end, glm::ivec3(0));
-    if (test_.isSteady(0.5 * (low + high), 0.5000001 * glm::length(high - low))) {
+    if (isSteady(0.5 * (low + high), high - low, side == 1)) {
       for (int z = first.z; z < end.z; ++z)
         for (int y = first.y; y < end.y; ++y)
           for (int x = first.x; x < end.x; ++x) steady_[grid_.cellOfBrick({x, y, z})] = 1;
     } else if (side > 1) {
       for (int i = 0; i < 8; ++i) look(first + side / 2 * glm::ivec3(i & 1, i >> 1 & 1, i >> 2), side / 2);
     }
+  }
+
+  bool isSteady(glm::dvec3 center, glm::dvec3 extent, bool isCell) const {
+    const double radius = 0.5000001 * glm::length(extent);
+    if (test_.isSteady(center, radius)) return true;
+    if (!isCell) return false;
+    const std::optional<NearRims> near = test_.nearRims(center, radius);
+    return near && isSteadyByParts(*near, center, extent, kCellHalvings);
+  }
+  /// Whether the answer is steady in all eighths of a box: then it cannot change on a way through several.
+  ///
+  /// halvings  so often may the box be cut
+  static bool isSteadyByParts(const NearRims& near, glm::dvec3 center, glm::dvec3 extent, int halvings) {
+    const double radius = 0.2500001 * glm::length(extent);
+    for (int i = 0; i < 8; ++i) {
+      const glm::dvec3 corner(i & 1 ? 0.25 : -0.25, i & 2 ? 0.25 : -0.25, i & 4 ? 0.25 : -0.25);
+      const std::optional<WindingAround> around = near.around(center + corner * extent, radius);
+      if (around && around->leastFromHalf(glm::dvec3(0.0), radius) > 0) continue;
+      if (halvings == 1 || !isSteadyByParts(near, center + corner * extent, 0.5 * extent, halvings - 1)) return false;
+    }
+    return true;
   }
 
   const SampleGrid& grid_;
