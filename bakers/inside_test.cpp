@@ -12,6 +12,8 @@ namespace brickfield {
 
 namespace {
 constexpr double kFarExcess = 0.45; // almost no turn or almost a whole one: no hole is near
+// Distances to membranes are estimates to first order: what rims may be off by must not show beside that.
+constexpr double kMembraneSlack = 1e-3;
 } // namespace
 
 SolidWinding::SolidWinding(const TriangleSoup& soup, const MeshTopology& topology,
@@ -60,13 +62,14 @@ double SolidWinding::excessBy(glm::dvec3 point, double fraction) const {
 
 double SolidWinding::membraneDistance(glm::dvec3 point, double limit, const NearRims* near) const {
   if (!open_) return HUGE_VAL;
-  if (near) {
-    const std::optional<WindingAround> around = near->around(point, 0.0);
-    if (around && isFarFromMembranes(*around, glm::dvec3(0.0), 0.0, limit)) return HUGE_VAL;
-  }
+  std::optional<WindingAround> around;
+  if (near) around = near->around(point, 0.0);
+  if (around && isFarFromMembranes(*around, glm::dvec3(0.0), 0.0, limit)) return HUGE_VAL;
   const Rims& rims = open_->rims();
   const bool areMany = rims.areMany();
-  const WindingAround here = areMany ? WindingAround{} : rims.fractionAndSlopeAt(point);
+  const bool isNearEnough =
+      around && around->slack < kMembraneSlack && around->slopeSlack < kMembraneSlack * glm::length(around->slope);
+  const WindingAround here = areMany ? WindingAround{} : isNearEnough ? *around : rims.fractionAndSlopeAt(point);
   const double least = areMany ? 0.0 : std::abs(here.fraction - 0.5); // whole turns can only be added to it
   if (least > kFarExcess) return HUGE_VAL;
   const double steepness = std::max(glm::length(areMany ? rims.slopeAt(point) : here.slope), 1e-12);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <tbb/parallel_for.h>
 
@@ -34,10 +35,12 @@ constexpr double kColoredVoxels = 2.5; // so near a membrane, surface attributes
 constexpr double kReachVoxels = kSampledRangeVoxels;
 
 struct MembraneBrick {
-  bool isTouched = false; ///< a membrane comes within reach; nothing else is of use where none does
-  BrickSamples samples;
-  SampleSigns inside;
-  float least = 0; ///< distance to a membrane, the reach at most
+  struct Samples {
+    BrickSamples distances;
+    SampleSigns inside;
+  };
+  std::unique_ptr<Samples> samples; ///< nothing: no membrane comes within reach
+  float least = 0;                  ///< distance to a membrane, the reach at most
 };
 
 /// Draws a brick's distances in to the membranes that come near it.
@@ -131,15 +134,16 @@ public:
     MembraneBrick result;
     result.least = static_cast<float>(kReachVoxels);
     for (const float voxels : toMembrane) result.least = std::min(result.least, voxels);
-    result.isTouched = mustStore || result.least < static_cast<float>(kReachVoxels);
-    if (!result.isTouched) return result;
-    takeSamples(cell, brick, result);
+    if (!mustStore && result.least >= static_cast<float>(kReachVoxels)) return result;
+    result.samples.reset(new MembraneBrick::Samples); // not zeroed
+    takeSamples(cell, brick, *result.samples);
+    BrickSamples& samples = result.samples->distances;
     for (std::size_t i = 0; i < kSamples; ++i) {
-      float& distance = result.samples.solidDistances[i];
+      float& distance = samples.solidDistances[i];
       if (distance < kTriangleVoxels || distance <= toMembrane[i]) continue;
       // The triangle gives the membrane its color; beyond the range it was not looked for.
       if (distance >= static_cast<float>(kSampledRangeVoxels) && static_cast<double>(toMembrane[i]) < kColoredVoxels)
-        result.samples.solidTriangles[i] =
+        samples.solidTriangles[i] =
             request_.surfaces->solid->nearest(level_.grid.sample(brick, sampleOfIndex(i))).triangle;
       distance = toMembrane[i];
     }
@@ -148,21 +152,21 @@ public:
 
 private:
   /// Of the brick that there is; else anew, where no triangle comes into the cell.
-  void takeSamples(std::uint32_t cell, glm::ivec3 brick, MembraneBrick& result) const {
+  void takeSamples(std::uint32_t cell, glm::ivec3 brick, MembraneBrick::Samples& samples) const {
     const std::uint32_t slot = level_.brickOfCell[cell];
     if (slot == kNoBrick) {
-      sampleBrick(request_, brick, !request_.isComplete, result.samples);
-      result.inside = askSamples(request_.grid, brick, test_, nullptr);
+      sampleBrick(request_, brick, !request_.isComplete, samples.distances);
+      samples.inside = askSamples(request_.grid, brick, test_, nullptr);
       return;
     }
     const auto copy = [&](const auto& from, auto& to) {
       if (!from.empty()) std::copy_n(&from[slot * kSamples], kSamples, to.begin());
     };
-    copy(level_.solidDistances, result.samples.solidDistances);
-    copy(level_.solidTriangles, result.samples.solidTriangles);
-    copy(level_.sheetDistances, result.samples.sheetDistances);
-    copy(level_.sheetTriangles, result.samples.sheetTriangles);
-    copy(signs_.sampleInside, result.inside);
+    copy(level_.solidDistances, samples.distances.solidDistances);
+    copy(level_.solidTriangles, samples.distances.solidTriangles);
+    copy(level_.sheetDistances, samples.distances.sheetDistances);
+    copy(level_.sheetTriangles, samples.distances.sheetTriangles);
+    copy(signs_.sampleInside, samples.inside);
   }
 
   const SamplingRequest& request_;
@@ -208,11 +212,11 @@ void insertMembranes(const SamplingRequest& request, const InsideTest& test, Lev
     const std::uint32_t cell = cells[i];
     float& bound = level.cellBounds[cell];
     bound = std::min(bound, boundBySamples(bricks[i].least));
-    if (!bricks[i].isTouched) continue;
+    if (!bricks[i].samples) continue;
     if (steps[cell] > 0 && level.brickOfCell[cell] == kNoBrick && bound > kTouchVoxels) continue;
-    storeBrick(request, cell, bricks[i].samples, level);
+    storeBrick(request, cell, bricks[i].samples->distances, level);
     signs.sampleInside.resize(level.brickCount() * kSamples);
-    std::copy(bricks[i].inside.begin(), bricks[i].inside.end(),
+    std::copy(bricks[i].samples->inside.begin(), bricks[i].samples->inside.end(),
               signs.sampleInside.begin() + static_cast<std::ptrdiff_t>(level.brickOfCell[cell] * kSamples));
   }
 }
