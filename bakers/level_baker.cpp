@@ -37,14 +37,25 @@ SignedSamples combine(LevelSamples& level, const LargeVector<std::uint8_t>& samp
     return {std::move(level.sheetDistances), std::move(level.sheetTriangles), std::vector<std::uint8_t>(count, 1)};
   SignedSamples result{std::move(level.solidDistances), std::move(level.solidTriangles),
                        std::vector<std::uint8_t>(count, 0)};
-  for (std::size_t i = 0; i < result.distances.size(); ++i) {
-    if (sampleInside[i]) result.distances[i] = -result.distances[i];
-    if (!growth.empty()) result.distances[i] -= growth[i];
-    if (level.sheetDistances.empty() || level.sheetDistances[i] >= result.distances[i]) continue;
-    result.distances[i] = level.sheetDistances[i];
-    result.triangles[i] = level.sheetTriangles[i];
-    result.isSheet[i] = 1;
-  }
+  // A loop for each step, without branches.
+  tbb::parallel_for(std::size_t{0}, count / kSamples, [&](std::size_t b) {
+    const std::size_t begin = b * kSamples;
+    float* distances = &result.distances[begin];
+    const std::uint8_t* inside = &sampleInside[begin];
+    for (std::size_t i = 0; i < kSamples; ++i) distances[i] = inside[i] ? -distances[i] : distances[i];
+    if (!growth.empty())
+      for (std::size_t i = 0; i < kSamples; ++i) distances[i] -= growth[begin + i];
+    if (level.sheetDistances.empty()) return;
+    const float* sheetDistances = &level.sheetDistances[begin];
+    const std::uint32_t* sheetTriangles = &level.sheetTriangles[begin];
+    std::uint32_t* triangles = &result.triangles[begin];
+    std::uint8_t* isSheet = &result.isSheet[begin];
+    for (std::size_t i = 0; i < kSamples; ++i) isSheet[i] = sheetDistances[i] < distances[i];
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      triangles[i] = sheetDistances[i] < distances[i] ? sheetTriangles[i] : triangles[i];
+      distances[i] = sheetDistances[i] < distances[i] ? sheetDistances[i] : distances[i];
+    }
+  });
   return result;
 }
 

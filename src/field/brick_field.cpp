@@ -9,31 +9,12 @@
 
 namespace brickfield {
 
-namespace {
-std::int32_t largestCode(DistanceFormat format) { return format == DistanceFormat::R8Snorm ? 127 : 32767; }
-
-/// As std::lround, halves away from zero, of what is small; that is a call a sample.
-std::int32_t rounded(float value) {
-  const auto whole = static_cast<std::int32_t>(value);
-  const float rest = value - static_cast<float>(whole); // exact
-  return whole + (rest >= 0.5f) - (rest <= -0.5f);
-}
-} // namespace
-
 IndirectionCell IndirectionCell::empty(bool inside, float boundVoxels) {
   constexpr float kMostSteps = 65535.0f;
   const float steps = std::floor(boundVoxels * kBoundStepsPerVoxel);
   // Written so that NaN gives 0, the bound that promises nothing.
   const auto bound = static_cast<std::uint32_t>(steps > 0.0f ? std::min(steps, kMostSteps) : 0.0f);
   return {kEmptyBit | (inside ? kInsideBit : 0u) | bound};
-}
-
-std::int32_t encodeDistance(float distanceVoxels, float rangeVoxels, DistanceFormat format) {
-  const std::int32_t largest = largestCode(format);
-  const float below = distanceVoxels / rangeVoxels;
-  const float unit = below < 1.0f ? below : 1.0f; // NaN too: nothing is known there, so nothing is solid
-  const std::int32_t code = rounded(std::max(unit, -1.0f) * static_cast<float>(largest));
-  return code == 0 && distanceVoxels < 0.0f ? -1 : code;
 }
 
 float decodeDistance(std::int32_t code, float rangeVoxels, DistanceFormat format) {

@@ -86,9 +86,20 @@ struct BrickField {
   ThinParts thinParts;
 };
 
+inline std::int32_t largestCode(DistanceFormat format) { return format == DistanceFormat::R8Snorm ? 127 : 32767; }
+
 /// SNORM code of a distance in units of the range, and back. Zero is never made of a negative distance: the code -1 is
-/// taken instead, because the sign must survive.
-std::int32_t encodeDistance(float distanceVoxels, float rangeVoxels, DistanceFormat format);
+/// taken instead, because the sign must survive. Without branches, for loops over samples.
+inline std::int32_t encodeDistance(float distanceVoxels, float rangeVoxels, DistanceFormat format) {
+  const float below = distanceVoxels / rangeVoxels;
+  const float unit = below < 1.0f ? below : 1.0f; // NaN too: nothing is known there, so nothing is solid
+  const float value = (unit > -1.0f ? unit : -1.0f) * static_cast<float>(largestCode(format));
+  // As std::lround, halves away from zero, of what is small; that is a call a sample.
+  const auto whole = static_cast<std::int32_t>(value);
+  const float rest = value - static_cast<float>(whole); // exact
+  const std::int32_t code = whole + (rest >= 0.5f ? 1 : 0) - (rest <= -0.5f ? 1 : 0);
+  return code - ((code == 0) & (distanceVoxels < 0.0f) ? 1 : 0);
+}
 float decodeDistance(std::int32_t code, float rangeVoxels, DistanceFormat format);
 
 /// Distance in voxels of one stored sample.

@@ -90,13 +90,20 @@ float rangeVoxelsWithoutClamp(float largestDistanceVoxels) {
 
 void writeBrickDistances(BrickLevel& level, std::uint32_t brickIndex,
                          std::span<const float, kBrickSampleCount> distancesObject) {
-  const std::size_t stride = bytesPerSample(level.format);
-  std::byte* to = level.distances.data() + std::size_t{brickIndex} * kBrickSampleCount * stride;
-  for (const float distanceObject : distancesObject) {
-    const std::int32_t code = encodeDistance(distanceObject / level.voxelSizeObject, level.rangeVoxels, level.format);
-    to[0] = static_cast<std::byte>(code & 0xff);
-    if (stride == 2) to[1] = static_cast<std::byte>((code >> 8) & 0xff);
-    to += stride;
+  const float voxelSize = level.voxelSizeObject, range = level.rangeVoxels;
+  std::byte* to = level.distances.data() + std::size_t{brickIndex} * kBrickSampleCount * bytesPerSample(level.format);
+  const auto encode = [&](std::size_t i, DistanceFormat format) {
+    return encodeDistance(distancesObject[i] / voxelSize, range, format);
+  };
+  if (level.format == DistanceFormat::R8Snorm) {
+    for (std::size_t i = 0; i < kBrickSampleCount; ++i)
+      to[i] = static_cast<std::byte>(encode(i, DistanceFormat::R8Snorm) & 0xff);
+    return;
+  }
+  for (std::size_t i = 0; i < kBrickSampleCount; ++i) {
+    const std::int32_t code = encode(i, DistanceFormat::R16Snorm);
+    to[2 * i] = static_cast<std::byte>(code & 0xff);
+    to[2 * i + 1] = static_cast<std::byte>((code >> 8) & 0xff);
   }
 }
 
