@@ -37,22 +37,32 @@ private:
 
 bool isBuiltWithOpenVdb() { return true; }
 
-std::uint64_t bandByOpenVdb(const PeerMesh& mesh, int threads) {
+PeerBand bandByOpenVdb(const PeerMesh& mesh, PeerSides sides, int threads) {
   openvdb::initialize();
   const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
+  const int flags = sides == PeerSides::Told ? 0 : openvdb::tools::UNSIGNED_DISTANCE_FIELD;
   openvdb::FloatGrid::Ptr grid;
   tbb::task_arena(threads).execute([&] {
     grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(MeshAdapter(mesh), *transform, kHalfBandVoxels,
-                                                            kHalfBandVoxels);
+                                                            kHalfBandVoxels, flags);
   });
-  return grid->activeVoxelCount();
+  return {grid};
+}
+
+PeerVoxels countVoxels(const PeerBand& band) {
+  const auto& grid = *static_cast<const openvdb::FloatGrid*>(band.grid.get());
+  PeerVoxels voxels;
+  voxels.active = grid.activeVoxelCount();
+  for (auto value = grid.cbeginValueOn(); value; ++value) voxels.inside += *value < 0.0f;
+  return voxels;
 }
 
 #else
 
 bool isBuiltWithOpenVdb() { return false; }
 
-std::uint64_t bandByOpenVdb(const PeerMesh&, int) { throw Failure("not built with OpenVDB"); }
+PeerBand bandByOpenVdb(const PeerMesh&, PeerSides, int) { throw Failure("not built with OpenVDB"); }
+PeerVoxels countVoxels(const PeerBand&) { return {}; }
 
 #endif
 

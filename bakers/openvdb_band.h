@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/math.h"
@@ -13,12 +14,24 @@ struct PeerMesh {
   std::vector<glm::uvec3> triangles;
 };
 
+/// What meshToVolume is to tell: distances with sides, or none. Of open meshes it has inside what its own voxels happen
+/// to shut in.
+enum class PeerSides { Told, NotTold };
+
+struct PeerBand {
+  std::shared_ptr<const void> grid; ///< its own, kept so that freeing it is no part of a measure
+};
+
 bool isBuiltWithOpenVdb();
 
-/// A level set of three voxels to each side, on so many threads.
+/// Distances of up to three voxels from the surface, on so many threads.
 ///
-/// returns  active voxels
 /// error    Failure: not built with OpenVDB
-std::uint64_t bandByOpenVdb(const PeerMesh& mesh, int threads);
+PeerBand bandByOpenVdb(const PeerMesh& mesh, PeerSides sides, int threads);
+
+struct PeerVoxels {
+  std::uint64_t active = 0, inside = 0; ///< inside: of the active ones
+};
+PeerVoxels countVoxels(const PeerBand& band);
 
 } // namespace brickfield

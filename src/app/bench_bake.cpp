@@ -1,6 +1,7 @@
 // Geometry alone is compared: both get the same triangles, textures and masks left out, and make one narrow band of the
-// same voxel, ours of four voxels to each side with its signs and codes, OpenVDB's of three. Runs of both alternate and
-// medians are taken.
+// same voxel, ours of four voxels to each side with its codes, OpenVDB's of three. Once with sides: ours judges which
+// parts are sheets and closes the holes of the others, OpenVDB has inside what its voxels shut in. Once without, where
+// both do the same work: distances to the triangles. Runs of all four alternate and medians are taken.
 #ifdef BRICKFIELD_BAKERS
 #include "app/bench_bake.h"
 
@@ -132,13 +133,34 @@ PeerMesh peerMeshOf(const BakeInput& input, double voxelMetres) {
   return mesh;
 }
 
+/// Several runs of the same work.
+struct Runs {
+  std::vector<TimeTaken> taken;
+
+  void add(TimeTaken time) { taken.push_back(time); }
+  bool isEmpty() const { return taken.empty(); }
+  TimeTaken median() const {
+    const auto ofOne = [&](double TimeTaken::*member) {
+      return medianBy(taken, [member](const TimeTaken& time) { return time.*member; }).*member;
+    };
+    return {ofOne(&TimeTaken::seconds), ofOne(&TimeTaken::processorSeconds)};
+  }
+};
+
+/// A band by us and by OpenVDB.
+struct BandRuns {
+  Runs ours, peer;
+
+  double timesOurs() const { return peer.median().seconds / ours.median().seconds; }
+  double processorTimesOurs() const { return peer.median().processorSeconds / ours.median().processorSeconds; }
+};
+
 /// What was measured of a mesh at a resolution.
 struct BenchRow {
   BakeStats ours; ///< of the median run
   std::optional<std::uint64_t> ourPeak, peerPeak;
-  double ourProcessorSeconds = 0;
-  std::optional<double> peerSeconds, peerProcessorSeconds;
-  std::uint64_t peerVoxels = 0;
+  BandRuns withSides, withoutSides;
+  PeerVoxels peerVoxels; ///< with sides
   BandAccuracy accuracy;
   bool isOpen = false; ///< distances near membranes are theirs
   std::optional<double> fullSeconds;
@@ -154,32 +176,30 @@ BakeSettings settingsOf(const BakeBenchRequest& request, int resolution) {
 
 BenchRow measure(const BenchMesh& mesh, const BakeBenchRequest& request, int resolution) {
   const BakeSettings settings = settingsOf(request, resolution);
+  BakeSettings settingsWithoutSides = settings;
+  settingsWithoutSides.sign = SignMethod::TwoSided;
   BenchRow row;
   std::vector<BakeStats> runs;
-  std::vector<double> processorRuns, peerRuns, peerProcessorRuns;
   for (int i = 0; i < request.repeats; ++i) {
     throwIfInterrupted();
-    const PeakMemory peak;
-    BandBake band;
-    processorRuns.push_back(timeOf([&] { band = bakeBand(mesh.bareInput, settings); }).processorSeconds);
-    if (i == 0) row.ourPeak = peak.bytes();
+    std::optional<PeakMemory> peak(std::in_place);
+    BandBake band, flat;
+    PeerBand peer, flatPeer;
+    row.withSides.ours.add(timeOf([&] { band = bakeBand(mesh.bareInput, settings); }));
+    if (i == 0) row.ourPeak = peak->bytes();
     runs.push_back(band.stats);
+    row.withoutSides.ours.add(timeOf([&] { flat = bakeBand(mesh.bareInput, settingsWithoutSides); }));
     if (!isBuiltWithOpenVdb()) continue;
-    const double voxelMetres = band.level.voxelSizeObject;
-    const PeakMemory peerPeak;
-    const TimeTaken taken =
-        timeOf([&] { row.peerVoxels = bandByOpenVdb(peerMeshOf(mesh.bareInput, voxelMetres), request.threads); });
-    peerRuns.push_back(taken.seconds);
-    peerProcessorRuns.push_back(taken.processorSeconds);
-    if (i == 0) row.peerPeak = peerPeak.bytes();
+    const auto peerBand = [&](const BandBake& ours, PeerSides sides) {
+      return bandByOpenVdb(peerMeshOf(mesh.bareInput, ours.level.voxelSizeObject), sides, request.threads);
+    };
+    peak.emplace();
+    row.withSides.peer.add(timeOf([&] { peer = peerBand(band, PeerSides::Told); }));
+    if (i == 0) row.peerPeak = peak->bytes();
+    row.withoutSides.peer.add(timeOf([&] { flatPeer = peerBand(flat, PeerSides::NotTold); }));
+    if (i == 0) row.peerVoxels = countVoxels(peer);
   }
   row.ours = medianBy(runs, [](const BakeStats& stats) { return stats.seconds; });
-  const auto itself = [](double seconds) { return seconds; };
-  row.ourProcessorSeconds = medianBy(processorRuns, itself);
-  if (!peerRuns.empty()) {
-    row.peerSeconds = medianBy(peerRuns, itself);
-    row.peerProcessorSeconds = medianBy(peerProcessorRuns, itself);
-  }
   BakeSettings plain = settings;
   plain.sign = SignMethod::Winding; // no slabs, no solids drawn thicker: distances are those to triangles
   const BandBake band = bakeBand(mesh.bareInput, plain);
@@ -195,13 +215,18 @@ std::string mebibytesText(std::optional<std::uint64_t> bytes) {
   return bytes ? fmt::format("{:.1f}", static_cast<double>(*bytes) / kMebi) : "-";
 }
 
+std::string peerText(const BandRuns& runs) {
+  return fmt::format("{:8.1f} {:6.2f}x {:6.2f}x", runs.peer.median().seconds * 1e3, runs.timesOurs(),
+                     runs.processorTimesOurs());
+}
+
 void printRow(const BenchMesh& mesh, int resolution, const BenchRow& row) {
   const BakeSeconds& stages = row.ours.stages;
-  const std::string peer =
-      row.peerSeconds
-          ? fmt::format("{:9.1f} {:>8} {:6.2f}x {:6.2f}x", *row.peerSeconds * 1e3, mebibytesText(row.peerPeak),
-                        *row.peerSeconds / row.ours.seconds, *row.peerProcessorSeconds / row.ourProcessorSeconds)
-          : std::string("  not built with OpenVDB");
+  const double withoutSides = row.withoutSides.ours.median().seconds * 1e3;
+  const std::string peer = row.withSides.peer.isEmpty()
+                               ? fmt::format("  not built with OpenVDB |{:>9.1f}", withoutSides)
+                               : fmt::format("{:>8} {} |{:>9.1f} {}", mebibytesText(row.peerPeak),
+                                             peerText(row.withSides), withoutSides, peerText(row.withoutSides));
   fmt::print("{:<36}{:>5}{:>9.1f} |{:>8.1f}{:>8.1f}{:>8.1f}{:>8.1f}{:>7.1f} |{:>8}{:>8.2f}{:>8}{:>7.1f} "
              "|{:>10}{:>9.1e}{:>6} |{:>8} |{}\n",
              mesh.name, resolution, row.ours.seconds * 1e3, stages.gather * 1e3, stages.hierarchy * 1e3,
@@ -220,20 +245,25 @@ Json orNull(const std::optional<Value>& value) {
 
 Json jsonOf(const BenchMesh& mesh, int resolution, const BenchRow& row) {
   const BakeStats& ours = row.ours;
-  Json peer = nullptr;
-  if (row.peerSeconds)
-    peer = {{"seconds", *row.peerSeconds},
-            {"peak_bytes", orNull(row.peerPeak)},
-            {"active_voxels", row.peerVoxels},
-            {"processor_seconds", *row.peerProcessorSeconds},
-            {"times_ours", *row.peerSeconds / ours.seconds},
-            {"processor_times_ours", *row.peerProcessorSeconds / row.ourProcessorSeconds}};
+  const auto peerOf = [](const BandRuns& runs) -> Json {
+    if (runs.peer.isEmpty()) return "not built with OpenVDB";
+    return {{"seconds", runs.peer.median().seconds},
+            {"processor_seconds", runs.peer.median().processorSeconds},
+            {"times_ours", runs.timesOurs()},
+            {"processor_times_ours", runs.processorTimesOurs()}};
+  };
+  Json peer = peerOf(row.withSides);
+  if (peer.is_object()) {
+    peer["peak_bytes"] = orNull(row.peerPeak);
+    peer["active_voxels"] = row.peerVoxels.active;
+    peer["inside_voxels"] = row.peerVoxels.inside;
+  }
   return {
       {"mesh", mesh.name},
       {"resolution", resolution},
       {"triangles", ours.triangles},
       {"seconds", ours.seconds},
-      {"processor_seconds", row.ourProcessorSeconds},
+      {"processor_seconds", row.withSides.ours.median().processorSeconds},
       {"stage_seconds",
        {{"gather", ours.stages.gather},
         {"hierarchy", ours.stages.hierarchy},
@@ -252,20 +282,25 @@ Json jsonOf(const BenchMesh& mesh, int resolution, const BenchRow& row) {
       {"quantum_voxels", row.accuracy.quantum},
       {"wrong_signs", row.accuracy.wrongSigns},
       {"full_bake_seconds", orNull(row.fullSeconds)},
-      {"openvdb", isBuiltWithOpenVdb() ? peer : Json("not built with OpenVDB")}};
+      {"openvdb", std::move(peer)},
+      {"without_sides",
+       {{"seconds", row.withoutSides.ours.median().seconds},
+        {"processor_seconds", row.withoutSides.ours.median().processorSeconds},
+        {"openvdb", peerOf(row.withoutSides)}}}};
 }
 
 void printHead(const BakeBenchRequest& request) {
   fmt::print(
       "One band of distances, signs and codes from triangles, {} threads, medians of {}; ms, MiB, voxels. Beside it "
       "OpenVDB's meshToVolume, 3 voxels to each side, of the same triangles and voxels (x: how much longer it takes, "
-      "by the clock and in processor time).\n"
+      "by the clock and in processor time). Of open meshes ours tells sheets from solids and closes holes, OpenVDB has "
+      "inside what its voxels shut in; \"no sides\": the same bands by both without any inside, distances alone.\n"
       "Errors and signs against brute force in double, of a band without slabs; \"full\": with mips and "
       "attributes.\n\n",
       request.threads, request.repeats);
   fmt::print("{:<36}{:>5}{:>9} |{:>8}{:>8}{:>8}{:>8}{:>7} |{:>8}{:>8}{:>8}{:>7} |{:>10}{:>9}{:>6} |{:>8} |{}\n", "mesh",
              "res", "ours", "gather", "tree", "dist.", "sign", "pack", "bricks", "Mq/s", "peak", "B/tri", "error",
-             "coded", "signs", "full", "  OpenVDB     peak   clock  proc.");
+             "coded", "signs", "full", "    peak  OpenVDB  clock   proc. | no sides  OpenVDB  clock   proc.");
 }
 
 Json benchThesis(const BakeBenchRequest& request) {

@@ -41,9 +41,12 @@ TEST_F(BenchBakeCommand, MeasuresAMeshBesideOpenVdb) {
       EXPECT_GT(row.at("bricks"), 0);
       EXPECT_EQ(row.at("wrong_signs"), 0);
       EXPECT_GT(row.at("full_bake_seconds"), 0.0);
+      EXPECT_GT(row.at("without_sides").at("seconds"), 0.0);
       if (isBuiltWithOpenVdb()) {
         EXPECT_GT(row.at("openvdb").at("active_voxels"), 0);
+        EXPECT_GT(row.at("openvdb").at("inside_voxels"), 0); // a closed mesh
         EXPECT_GT(row.at("openvdb").at("times_ours"), 0.0);
+        EXPECT_GT(row.at("without_sides").at("openvdb").at("times_ours"), 0.0);
       } else {
         std::fprintf(stderr, "NOT RUN: the column of OpenVDB, this build is without it\n");
         EXPECT_EQ(row.at("openvdb"), "not built with OpenVDB");
