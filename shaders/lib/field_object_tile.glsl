@@ -6,8 +6,6 @@
 const uint MOST_REACHING = gl_WorkGroupSize.x + 96u;
 shared uvec2 reaching[MOST_REACHING]; // distance from the tile, float bits; number
 shared uvec2 nearestFirst[MOST_REACHING];
-shared uint ranks[MOST_REACHING]; // of those reaching, in the order of nearestFirst
-const uint RANK_SHARES = 8u;
 shared uint reachingCount;
 shared uint farthestBits; // largest value in the tile, metres
 
@@ -24,30 +22,22 @@ uint listObjects(Place place, uint first, float most) {
       vec4 sphere = objectRows[number].sphere;
       if (distance(sphere.xyz, place.tileCenter) - sphere.w < reach) {
         float least = max(boxDistance(objectAt(place, number), place.tileCenter) - place.halfDiagonal, 0.0);
-        if (least <= most) {
-          uint at = atomicAdd(reachingCount, 1u);
-          reaching[at] = uvec2(floatBitsToUint(least), number);
-          ranks[at] = 0u;
-        }
+        if (least <= most) reaching[atomicAdd(reachingCount, 1u)] = uvec2(floatBitsToUint(least), number);
       }
     }
     barrier();
     first += gl_WorkGroupSize.x;
   }
   barrier();
-  // Several threads count who comes before one: one alone would go through all of them.
-  for (uint share = gl_LocalInvocationIndex; share < reachingCount * RANK_SHARES; share += gl_WorkGroupSize.x) {
-    uint own = share / RANK_SHARES, before = 0u;
+  for (uint own = gl_LocalInvocationIndex; own < reachingCount; own += gl_WorkGroupSize.x) {
+    uint rank = 0u;
     uvec2 it = reaching[own];
-    for (uint i = share % RANK_SHARES; i < reachingCount; i += RANK_SHARES) {
+    for (uint i = 0u; i < reachingCount; ++i) {
       uvec2 other = reaching[i];
-      before += uint(other.x < it.x || (other.x == it.x && other.y < it.y));
+      rank += uint(other.x < it.x || (other.x == it.x && other.y < it.y));
     }
-    atomicAdd(ranks[own], before);
+    nearestFirst[rank] = it;
   }
-  barrier();
-  for (uint own = gl_LocalInvocationIndex; own < reachingCount; own += gl_WorkGroupSize.x)
-    nearestFirst[ranks[own]] = reaching[own];
   barrier();
   return first;
 }
