@@ -9,10 +9,13 @@
 //         \|/ t
 //          p
 // A grain is what nothing in a reading is finer than: a texel of the field, a voxel of bricks.
+#include "lib/frame.glsl"
 #include "lib/shadow_cone.glsl"
 
-// By whoever includes this, before: const bool ENDS_DARK, whether half of the rays may say that the others are blocked
-// too.
+// By whoever includes this, before:
+//   const bool ENDS_DARK            whether half of the rays may say that the others are blocked too
+//   const float LIFT_TOWARDS_EYE    so much of the lift leads to the eye besides. Nothing lies between: where a point
+//                                   stands beside a sheet, that leads out of it, on the side that is seen
 
 const uint MOST_CONE_READS = 96u, MOST_RAY_READS = 64u;
 // Steps of 0.6 pass through some of the slabs that bricks hold for sheets.
@@ -40,8 +43,9 @@ const float LEAD = 8.0; // see stepRay
 // Down from where the cone begins, in parts of the lift; and what is no more than this over the surface is the surface.
 const float LEAST_DOWN = 0.1, OWN_SURFACE_GRAINS = 2.0;
 const uint MOST_DOWN_READS = 10u;
-// Out of what the point stands beside.
-const float OUT_STEP_GRAINS = 0.2, LEAST_RISE_GRAINS = 0.04;
+// Out of what the point stands beside; from half a grain nearer to the eye too, but no more: where the back of a sheet is
+// not drawn, that may lead through it.
+const float OUT_STEP_GRAINS = 0.2, LEAST_RISE_GRAINS = 0.02, ASIDE_GRAINS = 0.5;
 const uint MOST_OUT_READS = 8u;
 
 uint shadowReads = 0u; // of this thread
@@ -66,8 +70,9 @@ ShadowReading readForShadow(vec3 pointAnchored, float mostMetres, bool keepsObje
 //          the cone's beginning, as a saucer does over the floor
 //   OUT    where the point at a wall's foot lies within the half texel that the field adds to sheets: whether the way
 //          leads out of it from the first small step on. From the wall's far side it would cross the sheet first
+//   ASIDE  where it does not: the same from nearer to the eye, for in its middle a sheet is too flat to tell
 //   RAY    one after the other
-const uint GRAIN = 0u, DOWN = 1u, OUT = 2u, CONE = 3u, RAY = 4u, DONE = 5u;
+const uint GRAIN = 0u, DOWN = 1u, OUT = 2u, ASIDE = 3u, CONE = 4u, RAY = 5u, DONE = 6u;
 
 struct March {
   uint stage;
@@ -78,7 +83,7 @@ struct March {
   // CONE, RAY
   float sure; // metres; free up to there
   float relaxed;
-  // DOWN, OUT; RAY: where and what the reading before was
+  // DOWN, OUT, ASIDE; RAY: where and what the reading before was
   float above; // the surface, metres
   float ball;  // metres, and its grain: the cone's first reading, or the one before
   float ballGrain;
@@ -110,6 +115,11 @@ void begin(inout March march, uint stage, float t) {
   march.stage = stage;
   march.t = t;
   march.reads = 0u;
+}
+
+// What the way climbs over the surface makes up for the lift, metres.
+float climbed(March march, ShadowCone cone) {
+  return march.t * max(LIFT_FADE * dot(cone.normal, cone.axis), LIFT_GRAINS / MOST_LIFT_FADE_GRAINS);
 }
 
 // The next ray that leaves the surface, every second one first: where all of these see the light, or none does, so do
@@ -223,14 +233,26 @@ void stepDown(inout March march, ShadowCone cone, ShadowReading reading) {
     leaveSurface(march, cone);
 }
 
-void stepOut(inout March march, ShadowCone cone, ShadowReading reading) {
+// The cone begins where the way is out, and as high.
+void leaveSheet(inout March march, inout ShadowCone cone) {
+  march.stage = CONE;
+  march.reads = 1u;
+  march.sure = march.t;
+  march.lift = cone.lift = march.lift + climbed(march, cone);
+}
+
+void stepOut(inout March march, inout ShadowCone cone, ShadowReading reading) {
+  bool isAside = march.stage == ASIDE, isFirst = march.t == 0.0;
   bool isOut = reading.distanceWorld > LEAST_WIDTH_GRAINS * reading.grain;
-  if (reading.distanceWorld < march.ball + LEAST_RISE_GRAINS * cone.grain || (!isOut && march.reads >= MOST_OUT_READS)) {
+  bool isRising = reading.distanceWorld >= march.ball + LEAST_RISE_GRAINS * cone.grain;
+  bool isLost = !isFirst && (!isRising || (!isOut && march.reads >= MOST_OUT_READS));
+  if (isLost && isAside) {
     finish(march, 0.0);
-  } else if (isOut) {
-    march.stage = CONE;
-    march.reads = 1u;
-    march.sure = march.t;
+  } else if (isLost) {
+    cone.origin += ASIDE_GRAINS * cone.grain * directionToEye(cone.origin - frame.eyeAnchored.xyz);
+    begin(march, ASIDE, 0.0);
+  } else if (isOut && !isFirst) {
+    leaveSheet(march, cone);
   } else {
     march.ball = reading.distanceWorld;
     march.t += OUT_STEP_GRAINS * cone.grain;
@@ -277,17 +299,13 @@ void stepRay(inout March march, ShadowCone cone, ShadowReading reading, int cell
   if (march.sure >= cone.end || march.reads >= MOST_RAY_READS) endRay(march, cone, march.free, cell);
 }
 
-// What the way climbs over the surface makes up for the lift, metres.
-float climbed(March march, ShadowCone cone) {
-  return march.t * max(LIFT_FADE * dot(cone.normal, cone.axis), LIFT_GRAINS / MOST_LIFT_FADE_GRAINS);
-}
-
 // Where the march reads next.
 vec3 placeOf(March march, ShadowCone cone) {
-  float lift = max(march.lift - climbed(march, cone), 0.0);
-  if (march.stage == GRAIN) lift = 0.0;
+  float lift = march.stage < CONE ? march.lift : max(march.lift - climbed(march, cone), 0.0);
   if (march.stage == DOWN) lift = march.above;
-  return cone.origin + lift * cone.normal + march.t * (cone.axis + march.across);
+  vec3 off = cone.normal;
+  if (LIFT_TOWARDS_EYE > 0.0) off += LIFT_TOWARDS_EYE * directionToEye(cone.origin - frame.eyeAnchored.xyz);
+  return cone.origin + lift * off + march.t * (cone.axis + march.across);
 }
 
 // Where bricks end, or a cascade, the field begins to make the surface thicker than the lift: what lies in the way there
@@ -325,7 +343,7 @@ float shadowOf(ShadowCone cone, int rays, float softness, int cell) {
       stepRay(march, cone, reading, cell);
     else if (march.stage == CONE)
       stepCone(march, cone, reading, softness, cell);
-    else if (march.stage == OUT)
+    else if (march.stage == OUT || march.stage == ASIDE)
       stepOut(march, cone, reading);
     else if (march.stage == DOWN)
       stepDown(march, cone, reading);

@@ -16,6 +16,9 @@ void viewRay(vec2 ndc, out vec3 originEye, out vec3 directionWorld) {
   directionWorld = mat3(frame.worldFromView) * directionView;
 }
 
+// Unit; from a place relative to the eye, with the world's axes.
+vec3 directionToEye(vec3 pointEye) { return frame.projection.z > 0.5 ? frame.worldFromView[2].xyz : normalize(-pointEye); }
+
 vec2 ndcFromPixel(vec2 pixel) { return pixel / vec2(frame.size.xy) * 2.0 - 1.0; }
 
 // Ray parameter at which a ray reaches a stored depth: solves clip.z = depth * clip.w, both linear in t.

@@ -1,5 +1,6 @@
 // Soft shadows of the first lights by the world field, and beside surfaces by the bricks of objects.
 const bool ENDS_DARK = true;
+const float LIFT_TOWARDS_EYE = 0.5;
 #include "lib/field_shadow.glsl"
 #include "lib/near_bricks.glsl"
 // As many as there may be leave few registers to each: on an H200 faster than 8x4, by a tenth and more.

@@ -1,6 +1,8 @@
 // Soft shadows of the first lights by the world field alone.
 // The field alone is too dark as it is: things are thick in it, and few rays come through gaps.
 const bool ENDS_DARK = false;
+// Its texels are wide: half of one towards the eye passes by what stands beside the point.
+const float LIFT_TOWARDS_EYE = 0.0;
 #include "lib/field_shadow.glsl"
 // One warp: the barrier of the mean waits for nobody.
 const int GROUP_WIDTH = 8, GROUP_HEIGHT = 4;
