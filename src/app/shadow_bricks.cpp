@@ -6,13 +6,15 @@
 #include <functional>
 
 #include "app/scene_fields.h"
+#include "bakers/bake.h"
 #include "scene/surface_topology.h"
 
 namespace brickfield {
 
 namespace {
 
-constexpr int kLeastVoxels = 16, kMostVoxels = 512;
+// What is as long as the scene, its walls, gets half of the voxels from 1024 on: they are flat, and most of all bricks.
+constexpr int kLeastVoxels = 16, kAllVoxels = 512;
 
 float longestSide(const Mesh& mesh, const glm::mat4& worldFromObject) {
   Box box;
@@ -40,6 +42,7 @@ std::vector<std::string> addShadowBricks(const Scene& scene, const Pose& pose, c
                                          SceneFields& fields, const Progress& progress) {
   const glm::vec3 extent = pose.boundsWorld.isEmpty() ? glm::vec3(0) : pose.boundsWorld.extent();
   const float voxel = std::max({extent.x, extent.y, extent.z}) / static_cast<float>(request.voxels);
+  const int mostVoxels = std::clamp(request.voxels / 2, kAllVoxels, kMostResolution);
   std::vector<std::optional<BakeSettings>> settings(scene.nodes.size());
   for (const PosedInstance& instance : pose.instances) {
     const auto node = static_cast<std::size_t>(instance.node);
@@ -49,7 +52,7 @@ std::vector<std::string> addShadowBricks(const Scene& scene, const Pose& pose, c
     if (isObject || settings[node] || !isRigid(mesh, instance) || !(voxel > 0) || !(side > 0)) continue;
     BakeSettings& bake = settings[node].emplace();
     bake.resolution = static_cast<int>(
-        std::clamp(std::ceil(side / voxel), static_cast<float>(kLeastVoxels), static_cast<float>(kMostVoxels)));
+        std::clamp(std::ceil(side / voxel), static_cast<float>(kLeastVoxels), static_cast<float>(mostVoxels)));
     bake.attributes = false;
     // As the world field does: what is not closed is a sheet, however nearly it closes, for a shelf's front must stay
     // open and a room's walls have the light on their inside.

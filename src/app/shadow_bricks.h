@@ -12,7 +12,8 @@
 namespace brickfield {
 
 struct ShadowBrickRequest {
-  int voxels = 1024; ///< along the scene's longest side; of a mesh its share of them, 16 to 512
+  int voxels = 1024; ///< along the scene's longest side; of a mesh its share of them, 16 to 512 or, if more, half of
+                     ///< all up to 1024
   std::uint64_t memoryBytes = 0;
   int threads = 0;
   std::filesystem::path cacheFolder; ///< empty: no cache

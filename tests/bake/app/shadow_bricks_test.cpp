@@ -50,5 +50,21 @@ TEST(ShadowBricks, RigidMeshesGetThemByTheirShareOfTheScene) {
   EXPECT_NEAR(voxelOf(1), 4.0 / 128, 0.05 * 4.0 / 128) << "as fine as the floor's";
 }
 
+// A rod as long as its scene.
+TEST(ShadowBricks, LongMeshesGetHalfOfTheVoxels) {
+  Scene scene;
+  scene.scenes.push_back({"scene", {0}});
+  scene.meshes = {makeBoxMesh({2, 0.02f, 0.02f})};
+  scene.nodes.resize(1);
+  scene.nodes[0].mesh = 0;
+  const Pose pose = poseScene(scene, {});
+  for (const auto& [voxels, most] : {std::pair{256, 256}, {1024, 512}, {2048, 1024}, {4096, 1024}}) {
+    SceneFields fields;
+    addShadowBricks(scene, pose, {voxels, std::uint64_t{1} << 30, 0, {}}, fields, {});
+    ASSERT_EQ(fields.fields.size(), 1u);
+    EXPECT_NEAR(fields.fields[0].levels.front().voxelSizeObject, 4.0 / most, 0.05 * 4.0 / most) << voxels;
+  }
+}
+
 } // namespace
 } // namespace brickfield::test
