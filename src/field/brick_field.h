@@ -89,7 +89,7 @@ struct BrickField {
 inline std::int32_t largestCode(DistanceFormat format) { return format == DistanceFormat::R8Snorm ? 127 : 32767; }
 
 /// SNORM code of a distance in units of the range, and back. Zero is never made of a negative distance: the code -1 is
-/// taken instead, because the sign must survive. Without branches, for loops over samples.
+/// taken instead, because the sign must survive.
 inline std::int32_t encodeDistance(float distanceVoxels, float rangeVoxels, DistanceFormat format) {
   const float below = distanceVoxels / rangeVoxels;
   const float unit = below < 1.0f ? below : 1.0f; // NaN too: nothing is known there, so nothing is solid
