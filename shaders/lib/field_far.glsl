@@ -10,7 +10,7 @@ bool isInsideFar(FieldCascade cascade, WorldTriangle t, vec3 point, TriangleHit 
   float share = SIGN_FROM_TEXELS * cascade.texel.x * inversesqrt(hit.squared);
   ivec3 lattice = ivec3(floor(mix(hit.closest, point, min(share, 1.0)) * cascade.texel.y));
   bool isSure = share > SIGN_FROM_TEXELS; // nearer than a texel
-  if (!isSure && isBandAt(cascade, lattice)) {
+  if (!isSure && isInWindow(cascade, lattice) && isBandAt(cascade, lattice)) {
     uint answer = nodes[texelWord(cascade, lattice)];
     if ((answer & SIGNED) != 0u) return ((answer & FIELD_NODE_INSIDE) != 0u) != ((answer & TURNED) != 0u);
   }

@@ -31,7 +31,8 @@ void splatWhole(FieldCascade cascade, SplatTriangle t, SplatBox box) {
   ivec3 at = box.lower;
   int endX = at.x + box.alongX, endY = at.y + box.plane / box.alongX;
   int tiles = cascade.window.w >> 3;
-  vec3 row = corner + steps.y * stepY + steps.z * stepZ;
+  // Where a box is clipped decides which of both places makes a row: precise, else one may be rounded in another way.
+  precise vec3 row = corner + steps.y * stepY + steps.z * stepZ;
   uvec3 parts = texelWordParts(cascade, at);
   uint rowWord = cascade.buffers.x + parts.y + parts.z;
   for (int i = 0; i < box.count; ++i) {

@@ -7,6 +7,7 @@
 
 #include "app/bench_tables.h"
 #include "app/session.h"
+#include "core/error.h"
 #include "renderer/renderer.h"
 #ifdef BRICKFIELD_BAKERS
 #include "bakers/field_accuracy.h"
@@ -74,6 +75,8 @@ private:
   }
 
   void report(const std::string& size, const std::string& name, int frames, const FieldAccuracy& error) {
+    if (error.texels == 0)
+      throw BadInput(setting_.scene.name, "", "has no surface that texels lie near to: there is no error to measure");
     fmt::print("{:<2} {:<24}{:>7}{:>9.4f}{:>9.4f}{:>9.3f}{:>9.3f}{:>9.3f}{:>10.4f} %{:>9.2f}{:>10}{:>9}\n", size, name,
                frames, error.rms, error.p999, error.worst, error.farAbove, error.farBelow, 100 * error.wrongSigns,
                error.farthestWrongSign, error.overlaps, error.texels);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,8 @@ namespace brickfield {
 namespace {
 
 constexpr float kSheetHalfTexels = 0.5f;
+/// Shaders reach no farther into a buffer.
+constexpr std::size_t kMostBytes = std::numeric_limits<std::int32_t>::max();
 constexpr std::size_t kLeastSearches = std::size_t{3} << 18;
 constexpr int kLeastKeyDistanceBits = 6; // steps of 1/28 texel: what they confuse, the evaluation rounds sort out
 
@@ -39,8 +42,10 @@ bool ExactField::fit(const std::vector<FieldWindow>& windows) {
   std::size_t texels = 0;
   for (const FieldWindow& window : windows) texels += texelsOf(window);
   const std::size_t words = texels * sizeof(std::uint32_t);
-  if (words / sizeof(std::uint32_t) > std::size_t{1} << 31)
-    throw Failure(fmt::format("world field: {} texels are more than can be numbered", texels));
+  if (words > kMostBytes)
+    throw BadInput(
+        "world field", "size",
+        fmt::format("{} texels need buffers of {} bytes, of which shaders reach {}", texels, words, kMostBytes));
   *this = ExactField();
   keys_ = Buffer("field_keys", words);
   nodes_ = Buffer("field_nodes", words);

@@ -177,6 +177,41 @@ TEST_F(ExactField, UpdatesOfSdfObjectsEqualTheFieldMadeFromNothing) {
   }
 }
 
+// A solid leaves the window by a slope, and far from it a thin wall stands at the other border, which lies beside this
+// one in memory: what the wall is is nothing to the slope, nor what it was before it went down.
+TEST_F(ExactField, SignsComeFromNoOtherBorder) {
+  Scene built = makeInterpenetration();
+  built.meshes = {makeBoxMesh(glm::vec3(10)), makeBoxMesh({0.2f, 0.4f, 10})};
+  const glm::vec3 slopeNormal = glm::normalize(glm::vec3(-1, 1, 0)), onSlope(1, -1, 0);
+  const TestScene scene(std::move(built), "none");
+  const auto poseAt = [&](float wallY) {
+    Pose pose = scene.pose();
+    pose.instances[0].worldFromObject =
+        glm::rotate(glm::translate(glm::mat4(1), onSlope - 10.0f * slopeNormal), glm::radians(45.0f), {0, 0, 1});
+    pose.instances[1].worldFromObject = glm::translate(glm::mat4(1), {-3, wallY, 0});
+    return pose;
+  };
+  const FieldShape shape{1, 64, 0.1, false};
+  const glm::dvec3 eye(0, 0.01, 0);
+  WorldFieldStage moving(scene.scene(), scene.fields(), shape);
+  for (const float wallY : {1.7f, 0.8f}) {
+    moving.frame(poseAt(wallY), eye);
+    const FieldSnapshot field = moving.read();
+    std::size_t outside = 0, wrong = 0;
+    for (std::size_t i = 0; i < field.distances.size(); ++i) {
+      const glm::vec3 point(field.centerAnchored(i) + field.anchorWorld);
+      const glm::vec3 fromWall = glm::abs(point - glm::vec3(-3, wallY, 0)) - glm::vec3(0.2f, 0.4f, 10);
+      if (glm::dot(point - onSlope, slopeNormal) < 0.1f || std::max(fromWall.x, fromWall.y) < 0.1f) continue;
+      ++outside, wrong += field.distances[i] < 0;
+    }
+    EXPECT_GT(outside, 100000u);
+    EXPECT_EQ(wrong, 0u) << wallY;
+  }
+  WorldFieldStage fromNothing(scene.scene(), scene.fields(), shape);
+  fromNothing.frame(poseAt(0.8f), eye);
+  EXPECT_TRUE(moving.read() == fromNothing.read());
+}
+
 // A torus moves in a box so large that nothing reaches most tiles in it, past an SDF sphere that reaches into such
 // tiles: their signs come from far away and change with what lies there, and the object joins again.
 TEST_F(ExactField, UpdatesWithinALargeSolidEqualTheFieldMadeFromNothing) {

@@ -113,6 +113,19 @@ TEST_F(WorldFieldScenes, AnimationsThatAreFineAreDrawn) {
   EXPECT_GT(drawnColors({"--time", "0.5"}), 20u);
 }
 
+TEST_F(WorldFieldScenes, SizesBeyondTheReachOfShadersAreRefused) {
+  writeTriangles(kTriangle);
+  expectRefused({"render", "made.gltf", "-o", "made.png", "--size", "32x32", "--view", "field", "--field-texels", "512",
+                 "--field-cascades", "4"},
+                {"world field", "536870912 texels"});
+}
+
+TEST_F(WorldFieldScenes, WhatHasNoSurfaceHasNoErrors) {
+  writeTriangles({0, 0, 0, 1, 0, 0, 2, 0, 0});
+  expectRefused({"bench", "world-field", "made.gltf", "--show", "errors", "--sizes", "S", "--rays", "0"},
+                {"made.gltf", "no surface"});
+}
+
 TEST_F(WorldFieldScenes, OneTriangleIsDrawnAtAnySize) {
   for (const float scale : {0.005f, 1.0f, 5000.0f}) {
     writeTriangles(kTriangle, {}, {}, scale);
