@@ -33,7 +33,7 @@ public:
 
   /// Makes room for these windows.
   /// returns whether the content was lost: number or size of the cascades is another
-  /// error   Failure: the device has no memory for it
+  /// error   BadInput: shaders cannot reach the end of its buffers; Failure: the device has no memory for them
   bool fit(const std::vector<FieldWindow>& windows);
   /// Uploads an update. error Failure: more triangles than keys can number
   void prepare(const std::vector<FieldWindow>& windows, const FieldWork& work);
