@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include <tbb/parallel_for.h>
 
@@ -15,7 +16,7 @@ constexpr std::size_t kSamples = kBrickSampleCount;
 constexpr float kAloneVoxels = 0.3f;      // patches that come farther off the surface have neighbours, or are pockets
 constexpr double kOffVoxels = 0.25;       // from a sample to the place that is looked at
 constexpr double kMostLookVoxels = 0.5;   // a larger ball is seldom empty
-constexpr double kLookSlackVoxels = 1e-3; // over the rounding of distances in voxels to float
+constexpr double kLookSlackVoxels = 1e-5; // over the rounding of distances in voxels to float
 
 /// Joins the patches of a brick that a look at one place each tells to be parts of others.
 class PatchJoiner {
@@ -61,6 +62,7 @@ private:
     const auto [neighbour, gap] = nearestBall(sample, toPlace, own);
     const double radius = std::max({kOffVoxels - static_cast<double>(distances_[sample]), gap, 0.0}) + kLookSlackVoxels;
     if (neighbour == kSamples || radius > kMostLookVoxels) return kSamples;
+    if (radius > kOffVoxels + static_cast<double>(distances_[sample])) return kSamples; // holds what is closest
     const double voxel = level_.grid.voxelSize;
     const bool isClear = solid_.nearest(point + voxel * toPlace, radius * voxel).triangle == kNoTriangle;
     return isClear ? neighbour : kSamples;
@@ -109,17 +111,16 @@ std::vector<SampleMask> patchesOf(const float* distances) {
 } // namespace
 
 PatchGraph::PatchGraph(const LevelSamples& level, const MeshDistance& solid)
-    : level_(&level), first_(level.brickCount() + 1) {
-  std::vector<std::vector<SampleMask>> bricks(level.brickCount());
-  tbb::parallel_for(std::size_t{0}, bricks.size(), [&](std::size_t b) {
-    bricks[b] = patchesOf(&level.solidDistances[b * kSamples]);
-    PatchJoiner(level, solid, b, bricks[b]).run();
+    : level_(&level), first_(level.brickCount() + 1), place_(level.brickCount()) {
+  // Faces along the grid make a patch of each of their samples: masks are stored once, at once.
+  tbb::parallel_for(std::size_t{0}, level.brickCount(), [&](std::size_t b) {
+    std::vector<SampleMask> patches = patchesOf(&level.solidDistances[b * kSamples]);
+    PatchJoiner(level, solid, b, patches).run();
+    place_[b] = static_cast<std::size_t>(masks_.grow_by(patches.begin(), patches.end()) - masks_.begin());
+    first_[b + 1] = static_cast<std::uint32_t>(patches.size());
   });
   first_[0] = static_cast<std::uint32_t>(level.grid.cellCount());
-  for (std::size_t b = 0; b < bricks.size(); ++b)
-    first_[b + 1] = first_[b] + static_cast<std::uint32_t>(bricks[b].size());
-  masks_.reserve(first_.back() - first_.front());
-  for (const std::vector<SampleMask>& patches : bricks) masks_.insert(masks_.end(), patches.begin(), patches.end());
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
 }
 
 std::size_t PatchGraph::brickOf(std::uint32_t patch) const {
@@ -130,7 +131,7 @@ glm::dvec3 PatchGraph::pointOf(std::uint32_t patch) const {
   const SampleGrid& grid = level_->grid;
   if (isCell(patch)) return grid.brickCenter(grid.brickOfCell(patch));
   const std::size_t b = brickOf(patch);
-  const std::size_t deepest = deepestOf(samplesOf(patch), &level_->solidDistances[b * kSamples]);
+  const std::size_t deepest = deepestOf(samplesOf(b, patch), &level_->solidDistances[b * kSamples]);
   return grid.sample(grid.brickOfCell(level_->cellOfBrick[b]), sampleOfIndex(deepest));
 }
 

@@ -13,8 +13,12 @@
 // empty cell is one patch that joins all of its neighbours.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
+
+#include <tbb/concurrent_vector.h>
 
 #include "bakers/disjoint_sets.h"
 #include "bakers/level_sampler.h"
@@ -33,8 +37,10 @@ public:
   /// Of a brick: numbers from .. to - 1.
   std::uint32_t firstPatchOf(std::size_t brick) const { return first_[brick]; }
   std::uint32_t endPatchOf(std::size_t brick) const { return first_[brick + 1]; }
-  /// Samples of a brick's patch.
-  const SampleMask& samplesOf(std::uint32_t patch) const { return masks_[patch - first_.front()]; }
+  /// Samples of a patch of a brick.
+  const SampleMask& samplesOf(std::size_t brick, std::uint32_t patch) const {
+    return masks_[place_[brick] + patch - first_[brick]];
+  }
   bool isCell(std::uint32_t patch) const { return patch < first_.front(); }
   /// Whether a patch number is in use: a brick's cell has none of its own.
   bool exists(std::uint32_t patch) const { return !isCell(patch) || level_->brickOfCell[patch] == kNoBrick; }
@@ -51,6 +57,8 @@ public:
   void forEachMeeting(Visit visit) const;
 
 private:
+  static constexpr std::size_t kFaceSamples = kBrickSamples * kBrickSamples;
+
   std::size_t brickOf(std::uint32_t patch) const;
   /// Samples of a patch in a face of its brick: the first or the last along an axis.
   static std::uint64_t inFace(const SampleMask& mask, glm::length_t axis, bool isLast);
@@ -58,8 +66,9 @@ private:
   void meetAcrossFace(std::size_t cell, std::size_t nextCell, glm::length_t axis, Visit visit) const;
 
   const LevelSamples* level_;
-  std::vector<std::uint32_t> first_; ///< a brick: number of its first patch
-  std::vector<SampleMask> masks_;    ///< a brick's patch, from first_.front() on
+  std::vector<std::uint32_t> first_;         ///< a brick: number of its first patch
+  std::vector<std::size_t> place_;           ///< a brick: where its masks begin
+  tbb::concurrent_vector<SampleMask> masks_; ///< a patch of a brick; bricks in the order that they were done in
 };
 
 template <typename Visit>
@@ -78,12 +87,17 @@ void PatchGraph::meetAcrossFace(std::size_t cell, std::size_t nextCell, glm::len
   const auto forEachSide = [&](std::uint32_t b, std::size_t emptyCell, bool isLast, const auto& visitSide) {
     if (b == kNoBrick) return visitSide(static_cast<std::uint32_t>(emptyCell), ~std::uint64_t{0});
     for (std::uint32_t patch = first_[b]; patch < first_[b + 1]; ++patch)
-      if (const std::uint64_t samples = inFace(samplesOf(patch), axis, isLast); samples != 0) visitSide(patch, samples);
+      if (const std::uint64_t samples = inFace(samplesOf(b, patch), axis, isLast); samples != 0)
+        visitSide(patch, samples);
   };
+  std::array<std::pair<std::uint32_t, std::uint64_t>, kFaceSamples> there; // patches share no sample
+  std::size_t count = 0;
+  forEachSide(nextBrick, nextCell, false, [&](std::uint32_t patch, std::uint64_t samples) {
+    there[count++] = {patch, samples};
+  });
   forEachSide(brick, cell, true, [&](std::uint32_t here, std::uint64_t ofHere) {
-    forEachSide(nextBrick, nextCell, false, [&](std::uint32_t there, std::uint64_t ofThere) {
-      if (ofHere & ofThere) visit(here, there);
-    });
+    for (std::size_t i = 0; i < count; ++i)
+      if (ofHere & there[i].second) visit(here, there[i].first);
   });
 }
 

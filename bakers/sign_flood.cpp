@@ -111,7 +111,7 @@ private:
     const glm::ivec3 brick = level_.grid.brickOfCell(level_.cellOfBrick[b]);
     const auto forEachPatch = [&](const auto& visit) {
       for (std::uint32_t patch = graph_.firstPatchOf(b); patch < graph_.endPatchOf(b); ++patch)
-        visit(patchSigns_[patch], graph_.samplesOf(patch));
+        visit(patchSigns_[patch], graph_.samplesOf(b, patch));
     };
     if (isSteady_[level_.cellOfBrick[b]]) {
       SampleMask inside{};

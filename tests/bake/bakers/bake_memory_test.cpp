@@ -89,7 +89,7 @@ TEST(BakeMemory, NumberIsThatOfTheProcess) {
     fmt::print("{} triangles at {}: {:.0f} MiB needed, {:.0f} taken\n", mesh->primitive().indices.size() / 3,
                resolution, needed, taken);
     // What the process keeps of earlier bakes and takes again does not show, so the other bound is loose.
-    EXPECT_LE(taken, 1.15 * needed + 16);
+    EXPECT_LE(taken, 1.05 * needed + 16);
     EXPECT_GE(taken, 0.25 * needed - 16);
   }
 }
