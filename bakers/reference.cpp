@@ -51,7 +51,7 @@ public:
         progress_(progress),
         sampler_(*request.scene),
         geometry_(*request.scene, *request.pose, request.fields, sampler_, progress),
-        shading_(request, geometry_),
+        shading_(request, geometry_, sampler_),
         layers_(emptyLayers(request.view->sizePixels)),
         samples_(std::max(request.samples, 1)),
         tileCounts_((layers_.size + kTilePixels - 1u) / kTilePixels) {
@@ -105,11 +105,11 @@ private:
     const RayBundle rays = bundleOf(*request_.view, glm::vec2(pixel) + 0.5f, 1.0f);
     const std::optional<SurfaceHit> hit = geometry_.trace(rays);
     if (hit) fillLayers(indexOf(pixel), *hit, samples);
-    if (isLayerPassShared_) layers_.color[indexOf(pixel)] = radianceOf(rays, hit, samples, 0);
+    if (isLayerPassShared_) layers_.color[indexOf(pixel)] = shading_.radiance(rays, hit, samples, 0);
   }
 
   void fillLayers(std::size_t index, const SurfaceHit& hit, const PixelSamples& samples) {
-    const MaterialSample material = materialOf(hit);
+    const MaterialSample material = shading_.materialOf(hit);
     layers_.depth[index] = hit.distance;
     layers_.normal[index] = shadingNormal(hit, material);
     layers_.normalSurface[index] = hit.isBackFace ? -hit.normalVertex : hit.normalVertex;
@@ -129,21 +129,9 @@ private:
     for (int sample = begin; sample < end; ++sample) {
       const glm::vec2 place = glm::vec2(pixel) + samples.point(sample, SamplePurpose::Pixel);
       const RayBundle rays = bundleOf(*request_.view, place, step);
-      sum += radianceOf(rays, geometry_.trace(rays), samples, sample);
+      sum += shading_.radiance(rays, geometry_.trace(rays), samples, sample);
     }
     layers_.color[indexOf(pixel)] += glm::vec3(sum);
-  }
-
-  glm::vec3 radianceOf(const RayBundle& rays, const std::optional<SurfaceHit>& hit, const PixelSamples& samples,
-                       int sample) const {
-    const glm::vec3 direction = rays.center.directionWorld;
-    if (!hit) return shading_.sky(direction);
-    const MaterialSample material = materialOf(*hit);
-    return shading_.shade(*hit, material, shadingNormal(*hit, material), -direction, samples, sample);
-  }
-
-  MaterialSample materialOf(const SurfaceHit& hit) const {
-    return hit.fieldMaterial ? *hit.fieldMaterial : sampler_.sampleMaterial(*hit.material, hit.materialPoint);
   }
 
   /// Whoever finds another thread reporting does not wait for it; the last tile always reports.

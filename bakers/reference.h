@@ -1,6 +1,7 @@
 // The reference image: Embree primary rays against the source triangles, with the renderer's camera and materials.
 // Direct light of suns, spheres and rectangles with soft shadows, or of points with hard ones or none; environment
-// light with ambient occlusion or without. What the renderer is measured against.
+// light with ambient occlusion or without; reflections of the scene or of the surroundings alone. What the renderer is
+// measured against.
 #pragma once
 
 #include <functional>
@@ -37,6 +38,7 @@ struct ReferenceRequest {
   bool lightsFromCentres = false; ///< every light a point or a direction: hard shadows
   bool layersAlone = false;       ///< no colour: a ray a pixel and what its layers ask for
   bool shadowLayers = false;      ///< make FrameLayers::shadow, unless without shadows, of the first 32 lights
+  int reflections = 0;            ///< so often is a ray mirrored; what it meets then mirrors the surroundings alone
   std::optional<float> ambientOcclusionMetres{}; ///< what lies nearer hides the environment, and makes the layer
   ReferenceFields fields{};                      ///< empty: triangles alone
   BrdfModel brdf = BrdfModel::CookTorrance;      ///< that answers direct light
@@ -46,7 +48,8 @@ struct ReferenceRequest {
 /// through the pixel's centre makes all layers but colour, with `samples` shadow and occlusion rays. The same bytes on
 /// any number of threads. Shadow and occlusion rays are stopped by both sides of surfaces and pass the holes of masks;
 /// the hemisphere is that of the triangle, not of smoothed normals. Ambient occlusion dims all environment light, as
-/// occlusion maps do. A field whose node is nearly flat or scaled beyond a million stays a mesh.
+/// occlusion maps do, but for mirrored rays, which meet what stands around. A field whose node is nearly flat or scaled
+/// beyond a million stays a mesh.
 ///
 /// Back faces of single-sided materials are culled, alpha masks are cut; layers as FrameLayers says.
 /// error Cancelled; Failure from Embree; BadInput: the scene reaches beyond 1e11 metres, the eye beyond that

@@ -17,12 +17,12 @@
 
 namespace brickfield {
 
-/// A primary ray with its neighbours one step to the right and one down: they span its footprint.
+/// A ray with its neighbours one step to the right and one down: they span its footprint.
 struct RayBundle {
   PrimaryRay center, right, down;
 };
 
-/// Where a primary ray met a surface, in world space.
+/// Where a ray met a surface, in world space.
 struct SurfaceHit {
   float distance = 0; ///< metres along the ray from its origin
   int node = -1;

@@ -46,6 +46,12 @@ std::uint64_t mixBits(std::uint64_t bits) {
 PixelSamples::PixelSamples(glm::uvec2 pixel, std::uint64_t seed, int count)
     : pixelBits_(mixBits(mixBits(seed) ^ (std::uint64_t{pixel.y} << 32 | pixel.x))), count_(std::max(count, 1)) {}
 
+PixelSamples PixelSamples::ofMirrored() const {
+  PixelSamples samples = *this;
+  samples.pixelBits_ = mixBits(pixelBits_ + 1);
+  return samples;
+}
+
 glm::vec2 PixelSamples::point(int index, SamplePurpose purpose, std::uint32_t number) const {
   const std::uint64_t set = mixBits(pixelBits_ ^ mixBits(static_cast<std::uint64_t>(purpose) + number));
   const auto count = static_cast<std::uint32_t>(count_);

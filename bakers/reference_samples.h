@@ -13,6 +13,7 @@ enum class SamplePurpose : std::uint32_t {
   Pixel = 0,
   Occlusion = 1,
   OcclusionLayer = 2,
+  Mirror = 3,
   Light = 16,
   LightLayer = 1040
 };
@@ -35,6 +36,8 @@ public:
   /// proved by tests/oracle/bakers/reference_samples_test.cpp
   glm::vec2 point(int index, SamplePurpose purpose, std::uint32_t number = 0) const;
   int count() const { return count_; }
+  /// Points of their own for what a mirrored ray meets.
+  PixelSamples ofMirrored() const;
 
 private:
   std::uint64_t pixelBits_;

@@ -1,17 +1,21 @@
 // Direct light as glTF 2.0, appendix B says. Environment light is the usual approximation: irradiance by nine
 // harmonics, and a prefiltered mirror image times the environment BRDF (Karis 2013), both shadowed alike by occlusion
-// maps and, where asked for, by what stands around.
+// maps and, where asked for, by what stands around. Where reflections are asked for, a ray of the specular lobe takes
+// the place of the mirror image.
 #include "bakers/reference_shading.h"
 
 #include <algorithm>
 #include <numbers>
 
 #include "bakers/reference_lights.h"
+#include "bakers/reference_mirror.h"
 #include "scene/brdf.h"
 
 namespace brickfield {
 
 namespace {
+
+constexpr float kMirrorTurn = 1e-3f; // of the rays beside a mirrored one, where nothing is rough
 
 /// The triangle's normal on the viewer's side.
 glm::vec3 sideNormalOf(const SurfaceHit& surface) {
@@ -25,26 +29,56 @@ glm::vec3 rayStartOf(const SurfaceHit& surface) {
 
 } // namespace
 
-ReferenceShading::ReferenceShading(const ReferenceRequest& request, const ReferenceGeometry& geometry)
+ReferenceShading::ReferenceShading(const ReferenceRequest& request, const ReferenceGeometry& geometry,
+                                   const TextureSampler& sampler)
     : request_(request),
       lighting_(*request.lighting),
       geometry_(geometry),
+      sampler_(sampler),
       fromCentres_(request.lightsFromCentres || !request.shadows),
       irradiance_(irradianceHarmonics(lighting_.environment)),
       environment_(prefilterEnvironment(lighting_.environment)) {}
 
-glm::vec3 ReferenceShading::sky(glm::vec3 directionWorld) const {
-  return sampleEnvironment(lighting_.environment, directionWorld);
+MaterialSample ReferenceShading::materialOf(const SurfaceHit& surface) const {
+  return surface.fieldMaterial ? *surface.fieldMaterial
+                               : sampler_.sampleMaterial(*surface.material, surface.materialPoint);
 }
 
-glm::vec3 ReferenceShading::environmentLight(const SurfaceBrdf& brdf, float roughness, glm::vec3 normalWorld,
-                                             glm::vec3 towardsViewer) const {
-  const glm::vec3 irradiance = glm::max(evaluateHarmonics(irradiance_, normalWorld), glm::vec3(0.0f));
-  const glm::vec2 entry = environmentBrdf(roughness, glm::dot(normalWorld, towardsViewer));
+glm::vec3 ReferenceShading::environmentLight(const Shaded& shaded, const PixelSamples& samples, int sample,
+                                             int reflections) const {
+  const auto& [surface, material, brdf, normal, towardsViewer] = shaded;
+  const bool isHidden = request_.ambientOcclusionMetres && !isOpen(surface, basisAround(sideNormalOf(surface)),
+                                                                   samples.point(sample, SamplePurpose::Occlusion));
+  const glm::vec2 entry = environmentBrdf(material.roughness, glm::dot(normal, towardsViewer));
   const glm::vec3 specularShare = brdf.f0 * entry.x + entry.y;
-  const glm::vec3 mirrored = samplePrefiltered(environment_, glm::reflect(-towardsViewer, normalWorld), roughness);
-  // What the specular lobe sends back does not reach the diffuse layer.
-  return (1.0f - specularShare) * brdf.diffuse * irradiance / std::numbers::pi_v<float> + specularShare * mirrored;
+  glm::vec3 light(0.0f);
+  if (!isHidden) {
+    const glm::vec3 irradiance = glm::max(evaluateHarmonics(irradiance_, normal), glm::vec3(0.0f));
+    // What the specular lobe sends back does not reach the diffuse layer.
+    light = (1.0f - specularShare) * brdf.diffuse * irradiance / std::numbers::pi_v<float>;
+  }
+  if (reflections > 0)
+    light += mirroredLight(shaded, samples, sample, reflections);
+  else if (!isHidden)
+    light += specularShare * samplePrefiltered(environment_, glm::reflect(-towardsViewer, normal), material.roughness);
+  return material.occlusion * light;
+}
+
+glm::vec3 ReferenceShading::mirroredLight(const Shaded& shaded, const PixelSamples& samples, int sample,
+                                          int reflections) const {
+  auto [direction, weight] =
+      sampleMirrored(shaded.brdf, shaded.normal, shaded.towardsViewer, samples.point(sample, SamplePurpose::Mirror));
+  if (weight == glm::vec3(0.0f)) return weight;
+  // Bent normals mirror what lies below the triangle, too: as if that mirrored it back.
+  const glm::vec3 side = sideNormalOf(shaded.surface);
+  if (const float rising = glm::dot(direction, side); rising <= 0.0f) direction -= 2.0f * rising * side;
+  const glm::vec3 origin = rayStartOf(shaded.surface);
+  // The samples share the lobe.
+  const float turn = (kMirrorTurn + shaded.brdf.alpha) / std::sqrt(static_cast<float>(samples.count()));
+  const glm::mat3 basis = basisAround(direction);
+  const auto rayTo = [&](glm::vec3 towards) { return PrimaryRay{origin, glm::normalize(towards), 0.0f}; };
+  const RayBundle rays{rayTo(direction), rayTo(direction + turn * basis[0]), rayTo(direction + turn * basis[1])};
+  return weight * radiance(rays, geometry_.trace(rays), samples.ofMirrored(), sample, reflections - 1);
 }
 
 LightArrival ReferenceShading::arrivalOf(const PosedLight& light, glm::vec3 pointWorld, glm::vec2 square) const {
@@ -81,30 +115,38 @@ float ReferenceShading::openShare(const SurfaceHit& surface, const PixelSamples&
   return static_cast<float>(open) / static_cast<float>(samples.count());
 }
 
-glm::vec3 ReferenceShading::shade(const SurfaceHit& surface, const MaterialSample& material, glm::vec3 normalWorld,
-                                  glm::vec3 towardsViewer, const PixelSamples& samples, int sample) const {
-  const glm::vec3 baseColor(material.baseColor);
-  if (surface.isUnlit) return baseColor;
-  const SurfaceBrdf brdf = makeBrdf(baseColor, material.metallic, material.roughness);
-  glm::vec3 radiance = material.emission;
-  const bool isHidden = request_.ambientOcclusionMetres && !isOpen(surface, basisAround(sideNormalOf(surface)),
-                                                                   samples.point(sample, SamplePurpose::Occlusion));
-  if (!isHidden)
-    radiance += material.occlusion * environmentLight(brdf, material.roughness, normalWorld, towardsViewer);
-
+glm::vec3 ReferenceShading::directLight(const Shaded& shaded, const PixelSamples& samples, int sample) const {
+  glm::vec3 radiance(0.0f);
+  const auto evaluate = request_.brdf == BrdfModel::BlinnPhong ? evaluateBlinnPhong : evaluateBrdf;
   for (std::uint32_t i = 0; i < lighting_.lights.size(); ++i) {
     const LightArrival arrival =
-        arrivalOf(lighting_.lights[i], surface.position, samples.point(sample, SamplePurpose::Light, i));
-    const float nDotL = glm::dot(normalWorld, arrival.towardsLight);
+        arrivalOf(lighting_.lights[i], shaded.surface.position, samples.point(sample, SamplePurpose::Light, i));
+    const float nDotL = glm::dot(shaded.normal, arrival.towardsLight);
     if (nDotL <= 0.0f || arrival.irradiance == glm::vec3(0.0f)) continue;
-    const auto evaluate = request_.brdf == BrdfModel::BlinnPhong ? evaluateBlinnPhong : evaluateBrdf;
     const glm::vec3 answer =
-        evaluate(brdf, normalWorld, towardsViewer, arrival.towardsLight) * arrival.irradiance * nDotL;
+        evaluate(shaded.brdf, shaded.normal, shaded.towardsViewer, arrival.towardsLight) * arrival.irradiance * nDotL;
     if (answer == glm::vec3(0.0f)) continue;
-    if (request_.shadows && !isLit(surface, arrival)) continue;
+    if (request_.shadows && !isLit(shaded.surface, arrival)) continue;
     radiance += answer;
   }
   return radiance;
+}
+
+glm::vec3 ReferenceShading::radiance(const RayBundle& rays, const std::optional<SurfaceHit>& hit,
+                                     const PixelSamples& samples, int sample) const {
+  return radiance(rays, hit, samples, sample, request_.reflections);
+}
+
+glm::vec3 ReferenceShading::radiance(const RayBundle& rays, const std::optional<SurfaceHit>& hit,
+                                     const PixelSamples& samples, int sample, int reflections) const {
+  if (!hit) return sampleEnvironment(lighting_.environment, rays.center.directionWorld);
+  const MaterialSample material = materialOf(*hit);
+  const glm::vec3 baseColor(material.baseColor);
+  if (hit->isUnlit) return baseColor;
+  const Shaded shaded{*hit, material, makeBrdf(baseColor, material.metallic, material.roughness),
+                      shadingNormal(*hit, material), -rays.center.directionWorld};
+  return material.emission + environmentLight(shaded, samples, sample, reflections) +
+         directLight(shaded, samples, sample);
 }
 
 glm::vec3 shadingNormal(const SurfaceHit& surface, const MaterialSample& material) {

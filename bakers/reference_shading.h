@@ -14,17 +14,18 @@ namespace brickfield {
 /// What every hit of an image is lit by.
 class ReferenceShading {
 public:
-  /// The request and the geometry must outlive it.
-  ReferenceShading(const ReferenceRequest& request, const ReferenceGeometry& geometry);
+  /// What it is given must outlive it.
+  ReferenceShading(const ReferenceRequest& request, const ReferenceGeometry& geometry, const TextureSampler& sampler);
 
-  /// Radiance towards the viewer, by one point of each light and one direction of the hemisphere.
+  /// Radiance that a ray sees: of the surroundings, or of what it met, by one point of each light, one direction of the
+  /// hemisphere and one of what is mirrored.
   ///
-  /// surface        the hit; material what its textures say there
-  /// normalWorld    shading normal, on the viewer's side of the triangle
-  /// towardsViewer  unit
-  /// sample         which of the pixel's samples it is
-  glm::vec3 shade(const SurfaceHit& surface, const MaterialSample& material, glm::vec3 normalWorld,
-                  glm::vec3 towardsViewer, const PixelSamples& samples, int sample) const;
+  /// sample  which of the pixel's samples it is
+  glm::vec3 radiance(const RayBundle& rays, const std::optional<SurfaceHit>& hit, const PixelSamples& samples,
+                     int sample) const;
+
+  /// What a hit's textures, or its field, say of it.
+  MaterialSample materialOf(const SurfaceHit& surface) const;
 
   /// Share of a light that the surface sees, by all samples of the pixel: of its solid angle, of a rectangle's area.
   float visibleShare(const SurfaceHit& surface, std::uint32_t light, const PixelSamples& samples) const;
@@ -32,12 +33,21 @@ public:
   /// Share of the hemisphere over the triangle that is open, by the cosine and by all samples of the pixel.
   float openShare(const SurfaceHit& surface, const PixelSamples& samples) const;
 
-  /// Radiance of the surroundings.
-  glm::vec3 sky(glm::vec3 directionWorld) const;
-
 private:
-  glm::vec3 environmentLight(const SurfaceBrdf& brdf, float roughness, glm::vec3 normalWorld,
-                             glm::vec3 towardsViewer) const;
+  /// A hit as the light that it sends back needs it.
+  struct Shaded {
+    const SurfaceHit& surface;
+    MaterialSample material;
+    SurfaceBrdf brdf;
+    glm::vec3 normal;        ///< shading normal, on the viewer's side of the triangle
+    glm::vec3 towardsViewer; ///< unit
+  };
+  /// reflections  so often may a ray still be mirrored
+  glm::vec3 radiance(const RayBundle& rays, const std::optional<SurfaceHit>& hit, const PixelSamples& samples,
+                     int sample, int reflections) const;
+  glm::vec3 environmentLight(const Shaded& shaded, const PixelSamples& samples, int sample, int reflections) const;
+  glm::vec3 mirroredLight(const Shaded& shaded, const PixelSamples& samples, int sample, int reflections) const;
+  glm::vec3 directLight(const Shaded& shaded, const PixelSamples& samples, int sample) const;
   LightArrival arrivalOf(const PosedLight& light, glm::vec3 pointWorld, glm::vec2 square) const;
   bool isLit(const SurfaceHit& surface, const LightArrival& arrival) const;
   bool isOpen(const SurfaceHit& surface, const glm::mat3& basis, glm::vec2 square) const;
@@ -45,6 +55,7 @@ private:
   const ReferenceRequest& request_;
   const Lighting& lighting_;
   const ReferenceGeometry& geometry_;
+  const TextureSampler& sampler_;
   bool fromCentres_;
   std::array<glm::vec3, 9> irradiance_;
   PrefilteredEnvironment environment_;

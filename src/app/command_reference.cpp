@@ -33,6 +33,7 @@ struct ReferenceOptions {
   SdfTrace sdfTrace = SdfTrace::Unsaid;
   bool ambientOcclusion = false;
   std::optional<float> ambientOcclusionMetres;
+  int reflections = 0;
   BrdfModel brdf = BrdfModel::CookTorrance;
   float exposureEv = 0;
   std::optional<int> samples;
@@ -42,7 +43,7 @@ struct ReferenceOptions {
 /// that a rasterizer takes, so that they compare with its pictures.
 int samplesOf(const ReferenceOptions& options) {
   constexpr int kSoftSamples = 16;
-  const bool isSoft = options.shadows == ShadowChoice::Traced || options.ambientOcclusion;
+  const bool isSoft = options.shadows == ShadowChoice::Traced || options.ambientOcclusion || options.reflections > 0;
   return options.samples.value_or(isSoft ? kSoftSamples : 1);
 }
 
@@ -81,6 +82,7 @@ int reference(const ReferenceOptions& options) {
   request.seed = options.scene.seed;
   request.threads = options.scene.threads;
   request.brdf = options.brdf;
+  request.reflections = options.reflections;
   request.shadowLayers = !options.layers.empty();
   if (options.ambientOcclusion)
     request.ambientOcclusionMetres = options.ambientOcclusionMetres.value_or(std::numeric_limits<float>::infinity());
@@ -110,6 +112,12 @@ void addTraceOptions(CLI::App& command, ReferenceOptions& options) {
   command.add_flag("--ao", options.ambientOcclusion,
                    "Ambient occlusion: what stands around dims the environment's light; its own layer");
   addOcclusionRadius(command, options.ambientOcclusionMetres);
+  addValue(
+      command, "--reflections",
+      "So often is a ray mirrored, 0 to 64; what it meets then mirrors the surroundings alone, as all does with 0, "
+      "the default; render --reflections field is like 1",
+      [&](auto& flag, auto& text) { options.reflections = static_cast<int>(parseWhole(flag, text, 0, 64)); })
+      ->type_name("N");
   addValue(command, "--sdf-as",
            "field: SDF objects as their own bricks; mesh: as the triangles that these were baked from, only marked in "
            "the layers; absent: field where --sdf names objects, mesh where the scene's extras alone do",

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "bakers/reference.h"
 #include "field/analytic.h"
 #include "scene/brdf.h"
 #include "tests/support/embree_rays.h"
@@ -298,6 +299,44 @@ TEST_F(FieldReflection, WhatThePictureDoesNotShowIsShadedByWhoIsNearest) {
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(layers.color[middle][c], expected(upper)[c], 0.02f) << c;
     EXPECT_NEAR(layers.color[below][c], expected(lower)[c], 0.02f) << c;
+  }
+}
+
+// Smooth and rough floors of metal under forty things, against rays of their lobes.
+TEST_F(FieldReflection, MirrorsACrowdAsTracedRaysDo) {
+  for (const float roughness : {0.1f, 0.3f, 0.5f}) {
+    Scene built = makeCrowd();
+    built.materials.assign(1, glowing());
+    for (Mesh& mesh : built.meshes)
+      for (Primitive& primitive : mesh.primitives) primitive.material = 0;
+    const int ground =
+        addNode(built, makeBoxMesh({2, 0.05f, 2}), glm::translate(glm::mat4(1), {0, -1.3f, 0}), mirror(roughness));
+    const TestScene scene(std::move(built), "none");
+    const View view = scene.view({1.2f, 1.0f, 2.6f}, {0, -0.9f, 0}, kSize, 50);
+    const Lighting lighting = evenly(kAround);
+    ReferenceRequest request;
+    request.scene = &scene.scene(), request.pose = &scene.pose();
+    request.view = &view, request.lighting = &lighting;
+    request.samples = 128, request.reflections = 1;
+    const FrameLayers truth = traceReference(request);
+    RendererSettings off = reflecting(1);
+    off.reflections.method = ReflectionMethod::Off;
+    const auto errorOf = [&](const RendererSettings& settings) {
+      const FrameLayers layers = draw(scene, view, lighting, settings);
+      double sum = 0;
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < layers.id.size(); ++i) {
+        if (layers.id[i] != ground || truth.id[i] != ground || layers.normalSurface[i].y < 0.99f) continue;
+        const double difference = static_cast<double>(layers.color[i].x) - static_cast<double>(truth.color[i].x);
+        sum += difference * difference, ++count;
+      }
+      return std::sqrt(sum / static_cast<double>(count));
+    };
+    const double without = errorOf(off), full = errorOf(reflecting(1)), half = errorOf(reflecting(2));
+    fmt::print("roughness {}: RMS {:.3f} at full, {:.3f} at half resolution, {:.3f} without\n", roughness, full, half,
+               without);
+    EXPECT_LE(full, 0.5 * without);
+    EXPECT_LE(half, 0.5 * without);
   }
 }
 
