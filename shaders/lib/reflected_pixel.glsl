@@ -2,6 +2,7 @@
 // the same plane, as smooth as it. The frame of both passes of reflections: first every scale-th pixel along both axes,
 // then what lies between; a pixel like none of the four around it is traced itself.
 #include "lib/gbuffer.glsl"
+#include "lib/mirror_lobe.glsl"
 #include "shared/sdf_params.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -17,11 +18,20 @@ const float SAME_PLANE = 0.004, SAME_NORMAL = 0.96, SAME_ROUGHNESS = 0.1, LEAST_
 struct ReflectedPixel {
   bool isMirror;
   vec3 pointEye;
-  vec3 normal; // of the surface
-  vec3 direction;
+  vec3 normal;    // of the surface
+  vec3 bent;      // as maps bend it
+  vec3 toViewer;
+  vec3 direction; // mirrored
   float roughness;
   float away; // from the eye, metres
 };
+
+// Bent normals may mirror what lies below the surface: then along it.
+vec3 offSurface(vec3 direction, vec3 normal) {
+  const float LEAST_RISING = 0.02;
+  float rising = dot(direction, normal);
+  return rising < LEAST_RISING ? normalize(direction + (LEAST_RISING - rising) * normal) : direction;
+}
 
 ReflectedPixel reflectedPixel(ivec2 pixel) {
   ReflectedPixel found;
@@ -31,21 +41,12 @@ ReflectedPixel reflectedPixel(ivec2 pixel) {
   found.away = rayParameterOfDepth(originEye, directionWorld, texelFetch(depth, pixel, 0).r);
   found.pointEye = originEye + found.away * directionWorld;
   found.normal = directionFromOctahedral(normals.zw);
-  found.direction = reflect(directionWorld, directionFromOctahedral(normals.xy));
-  // Bent normals may mirror what lies below the surface: then along it.
-  float rising = dot(found.direction, found.normal);
-  const float LEAST_RISING = 0.02;
-  if (rising < LEAST_RISING) found.direction = normalize(found.direction + (LEAST_RISING - rising) * found.normal);
+  found.bent = directionFromOctahedral(normals.xy);
+  found.toViewer = -directionWorld;
+  found.direction = offSurface(reflect(directionWorld, found.bent), found.normal);
   found.roughness = properties.g;
   found.isMirror = kindOfId(texelFetch(id, pixel, 0).r) != KIND_NONE && found.roughness < MOST_ROUGHNESS && properties.a < 0.5;
   return found;
-}
-
-// Half of the half vectors of a GGX lobe lie within the angle whose tangent is alpha (Walter et al. 2007, eq. 35), so
-// half of what a surface mirrors comes from within twice that.
-float spreadOfRoughness(float roughness) {
-  float alpha = roughness * roughness;
-  return min(2.0 * alpha / max(1.0 - alpha * alpha, 1e-3), 1.0);
 }
 
 // How far the mirrored direction turns from a pixel to those beside and above it, as a length: what a pixel mirrors is as
@@ -58,6 +59,38 @@ float turnOfPixel(ivec2 pixel, ReflectedPixel own) {
     if (texelFetch(id, beside, 0).r == shown) turn = max(turn, distance(reflectedPixel(beside).direction, own.direction));
   }
   return turn;
+}
+
+// Which normal of a GGX lobe the viewer sees at a point of the square (Heitz 2018); all in the world.
+vec3 visibleNormal(float alpha, vec3 normal, vec3 toViewer, vec2 square) {
+  vec3 right = normalize(abs(normal.z) < 0.9 ? cross(normal, vec3(0.0, 0.0, 1.0)) : cross(normal, vec3(1.0, 0.0, 0.0)));
+  mat3 worldFromLobe = mat3(right, cross(normal, right), normal);
+  vec3 viewer = toViewer * worldFromLobe;
+  vec3 drawn = normalize(vec3(alpha * viewer.xy, max(viewer.z, 1e-3)));
+  vec3 across = dot(drawn.xy, drawn.xy) > 1e-12 ? normalize(vec3(-drawn.y, drawn.x, 0.0)) : vec3(1.0, 0.0, 0.0);
+  float radius = sqrt(square.x), angle = radians(360.0) * square.y, share = 0.5 * (1.0 + drawn.z), x = radius * cos(angle);
+  float y = mix(sqrt(max(1.0 - x * x, 0.0)), radius * sin(angle), share);
+  vec3 onSphere = x * across + y * cross(drawn, across) + sqrt(max(1.0 - x * x - y * y, 0.0)) * drawn;
+  return worldFromLobe * normalize(vec3(alpha * onSphere.xy, max(onSphere.z, 0.0)));
+}
+
+// The part of its lobe that a pixel traces.
+struct LobePart {
+  vec3 direction;
+  float spread; // metres of width a metre of way
+};
+
+LobePart lobePart(ivec2 place, ReflectedPixel pixel) {
+  const float GOLDEN = 0.61803399;
+  float whole = spreadOfRoughness(pixel.roughness), turn = turnOfPixel(place, pixel);
+  float share = lobeShare(pixel.roughness, turn * float(scale));
+  float spread = length(vec2(mix(whole, whole / float(2 * SHARERS), share), turn));
+  if (share == 0.0) return LobePart(pixel.direction, spread);
+  ivec2 cell = place / scale % SHARERS;
+  int number = (cell.x + SHARERS * cell.y) * 7 % (SHARERS * SHARERS); // neighbours far apart
+  vec2 square = vec2((float(number) + 0.5) / float(SHARERS * SHARERS), fract(float(number) * GOLDEN));
+  vec3 halfway = visibleNormal(share * pixel.roughness * pixel.roughness, pixel.bent, pixel.toViewer, square);
+  return LobePart(offSurface(reflect(-pixel.toViewer, halfway), pixel.normal), spread);
 }
 
 bool isTracedPlace(ivec2 pixel) { return all(equal(pixel % scale, ivec2(0))); }

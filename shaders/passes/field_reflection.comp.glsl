@@ -42,11 +42,11 @@ vec4 lightsSeen(vec3 pointAnchored, vec3 normal) {
 uvec4 tracedCode(ivec2 place, ReflectedPixel pixel) {
   vec3 origin = pixel.pointEye + frame.eyeAnchored.xyz;
   float grain = readForReflection(origin, 0.0).grain;
-  float spread = length(vec2(spreadOfRoughness(pixel.roughness), turnOfPixel(place, pixel)));
-  ReflectionMet met = traceReflection(ReflectionRay(origin, pixel.normal, pixel.direction, spread, grain));
-  ReflectionHit hit = ReflectionHit(met.t, met.free, -pixel.direction, 0u, false, ivec2(0), vec4(1.0));
+  LobePart part = lobePart(place, pixel);
+  ReflectionMet met = traceReflection(ReflectionRay(origin, pixel.normal, part.direction, part.spread, grain));
+  ReflectionHit hit = ReflectionHit(met.t, met.free, -part.direction, 0u, false, ivec2(0), vec4(1.0));
   if (met.free < 1.0) {
-    hit.normal = normalOfMet(met, pixel.direction);
+    hit.normal = normalOfMet(met, part.direction);
     vec3 surface = met.point - met.distanceWorld * hit.normal;
     hit.isSeen = isSeen(surface - frame.eyeAnchored.xyz, hit.normal, met.grain, hit.pixel);
     if (!hit.isSeen) {

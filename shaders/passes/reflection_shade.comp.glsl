@@ -100,12 +100,13 @@ MirroredSurface surfaceOfNode(ReflectionHit hit, vec3 pointEye) {
 }
 
 vec3 radianceOfMet(ivec2 place, ReflectedPixel pixel, ReflectionHit hit) {
-  MirroredSurface met = surfaceOfNode(hit, pixel.pointEye + hit.t * pixel.direction);
+  vec3 direction = lobePart(place, pixel).direction;
+  MirroredSurface met = surfaceOfNode(hit, pixel.pointEye + hit.t * direction);
   if (hit.isSeen) met = surfaceSeen(hit, hit.t * turnOfPixel(place, pixel));
   if (met.isUnlit) return met.surface.baseColor;
   met.surface.roughness = max(met.surface.roughness, LEAST_MET_ROUGHNESS);
-  vec3 toViewer = -pixel.direction;
-  vec3 mirrored = environmentAround(reflect(pixel.direction, met.normal), met.surface.roughness);
+  vec3 toViewer = -direction;
+  vec3 mirrored = environmentAround(reflect(direction, met.normal), met.surface.roughness);
   return met.emission + environmentLight(met.surface, met.normal, toViewer, met.open, met.open, mirrored) +
          directLight(met.surface, frame.eyeWorld.xyz + met.pointEye, met.normal, toViewer, met.visible, shadowedLights);
 }
