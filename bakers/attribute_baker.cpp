@@ -8,6 +8,7 @@
 
 #include "bakers/mask_cut.h"
 #include "field/brick_field.h"
+#include "field/card_crossing.h"
 
 namespace brickfield {
 
@@ -30,8 +31,12 @@ glm::vec2 footOn(const std::array<glm::dvec3, 3>& corners, glm::dvec3 point) {
 
 } // namespace
 
-AttributeBaker::AttributeBaker(const BakeInput& input, const TriangleSoup& soup)
-    : input_(&input), soup_(&soup), sampler_(*input.scene), constants_(input.primitives.size()) {
+AttributeBaker::AttributeBaker(const BakeInput& input, const TriangleSoup& soup, bool hasThinCards)
+    : input_(&input),
+      soup_(&soup),
+      sampler_(*input.scene),
+      constants_(input.primitives.size()),
+      hasThinCards_(hasThinCards) {
   for (std::size_t i = 0; i < input.primitives.size(); ++i) {
     const Primitive& primitive = *input.primitives[i];
     const Material& material = materialOf(*input.scene, primitive);
@@ -57,6 +62,10 @@ PackedAttributes AttributeBaker::at(std::uint32_t triangle, const PointOnTriangl
       atParent(triangle, a + weights.x * (b - a) + weights.y * (c - a), share > 0.0f ? 0.5f * voxelMetres : 0.0f);
   packed.baseColor =
       packRgba8(glm::vec4(glm::vec3(unpackRgba8(packed.baseColor)), keptShare(triangle, sample, voxelMetres)));
+  if (hasThinCards_ && !isSingleSided(triangle)) {
+    const std::uint8_t byte = cardByte(nearestCardAxis(glm::vec3(glm::cross(q - p, r - p))), packed.material >> 31);
+    packed.material = (packed.material & 0xffffffu) | std::uint32_t{byte} << 24;
+  }
   return packed;
 }
 

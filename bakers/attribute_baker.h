@@ -21,8 +21,9 @@ struct PackedAttributes {
 
 class AttributeBaker {
 public:
-  /// Both must outlive this.
-  AttributeBaker(const BakeInput& input, const TriangleSoup& soup);
+  /// input, soup   must outlive this
+  /// hasThinCards  what a mask cut has a slab as thin as can be shown: it is to know which way its card faces
+  AttributeBaker(const BakeInput& input, const TriangleSoup& soup, bool hasThinCards);
 
   /// True if all points of all triangles have the same attributes.
   bool isUniform() const { return isUniform_; }
@@ -48,6 +49,7 @@ private:
   const TriangleSoup* soup_;
   TextureSampler sampler_;
   std::vector<std::optional<PackedAttributes>> constants_; ///< a primitive: what it has everywhere
+  bool hasThinCards_;
   bool isUniform_ = true;
   bool hasEmission_ = false;
 };

@@ -98,7 +98,7 @@ public:
     result.field.sourceHash = bakeHash(input_, settings_);
     if (thickness_) result.field.thinParts = thinPartsAt(layout.levels, 0);
     std::optional<AttributeBaker> attributes;
-    if (settings_.attributes) attributes.emplace(input_, soup_);
+    if (settings_.attributes) attributes.emplace(input_, soup_, settings_.thickness <= 0);
     for (std::size_t i = 0; i < layout.levels.size(); ++i) {
       const bool isComplete = i + 1 == layout.levels.size();
       result.field.levels.push_back(bakeOneLevel(layout, i, isComplete, attributes ? &*attributes : nullptr, nullptr));

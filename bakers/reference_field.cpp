@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "field/card_crossing.h"
 #include "field/surface_attributes.h"
 #include "scene/triplanar.h"
 
@@ -32,8 +33,7 @@ std::optional<float> meetField(const BrickField& field, const RTCRay& ray) {
   for (int cut = 0; cut < kMostCuts; ++cut) {
     const std::optional<float> met = traceField(field, kFinest, origin, direction, from, ray.tfar);
     if (!met) return std::nullopt;
-    const std::optional<SurfaceAttributes> found = attributesAt(field, kFinest, origin + *met * direction);
-    if (!found || found->baseColor.w >= 0.5f) return met;
+    if (isCovered(field, kFinest, origin + *met * direction, direction, false)) return met;
     from = *met + kPastCutVoxels * field.levels[kFinest].voxelSizeObject / glm::length(direction);
   }
   return std::nullopt;

@@ -1,6 +1,6 @@
 // What a pixel's ray meets of one SDF object, whoever asks: a fragment of its box, or a thread of a tile.
-#include "lib/brick_attributes.glsl"
 #include "lib/brick_trace.glsl"
+#include "lib/card_crossing.glsl"
 #include "lib/sdf_space.glsl"
 
 // Layers of cut surface that a ray passes; a crown of leaf cards has fewer in one line.
@@ -34,7 +34,9 @@ SdfHit traceObject(SdfInstance instance, SdfLevel level, vec3 originEye, vec3 di
   vec3 entryGrid = originGrid + range.x * directionGrid;
   bool doubleSided = (instance.ids.w & int(SDF_DOUBLE_SIDED)) != 0;
   vec2 remaining = vec2(0.0, range.y - range.x);
-  // Where the surface is cut away (masks, backs of single-sided sheets) the ray goes on behind the hit.
+  vec3 directionUnit = normalize(directionGrid);
+  // Where the surface is cut away (masks, backs of single-sided sheets), or is the slab of a card that the ray does not
+  // cross, the ray goes on behind the hit.
   for (int cut = 0; cut < kMostCuts; ++cut) {
     TraceHit next = traceBricks(level, entryGrid, directionGrid, remaining, doubleSided, frame.counts.z - found.steps);
     found.steps += next.steps;
@@ -42,7 +44,7 @@ SdfHit traceObject(SdfInstance instance, SdfLevel level, vec3 originEye, vec3 di
     if (!next.hit) break;
     found.pointLevel = (entryGrid + next.t * directionGrid) * level.scale.x;
     readAttributes(level, found.pointLevel, attributes);
-    if (attributes.colorAndCoverage.a >= 0.5) {
+    if (isCovered(level, found.pointLevel, directionUnit, next.backFace, attributes)) {
       found.hit = true;
       found.backFace = next.backFace;
       found.t = range.x + next.t;

@@ -55,8 +55,9 @@ struct BrickLevel {
   std::vector<std::byte> distances;       ///< SNORM, little-endian, negative inside
   // Surface attributes at the closest surface point; all empty, or one value a sample (emission may be empty alone).
   std::vector<std::uint32_t> baseColor; ///< RGBA8, sRGB transfer on RGB; alpha is coverage
-  std::vector<std::uint32_t> material;  ///< RGBA8: metallic, roughness, occlusion, unlit (0 or 255)
-  std::vector<std::uint32_t> emission;  ///< RGB9E5, linear radiance
+  std::vector<std::uint32_t>
+      material; ///< RGBA8: metallic, roughness, occlusion; unlit (0 or 255) or a card (card_crossing.h)
+  std::vector<std::uint32_t> emission; ///< RGB9E5, linear radiance
 
   std::uint32_t brickCount() const {
     return static_cast<std::uint32_t>(distances.size() / (bytesPerSample(format) * kBrickSampleCount));

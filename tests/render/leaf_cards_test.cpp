@@ -9,13 +9,14 @@
 namespace brickfield::test {
 namespace {
 
-// Leaves are slabs 1.05 voxels thick: seen aslant each is wider by that, on a shape that is nearly all border.
-constexpr double kLeastIou = 0.9;
+// Leaves are slabs 1.05 voxels thick, on shapes that are nearly all border: seen aslant each would be wider by that, if
+// rays were not asked where they cross its card (card_crossing.h). Without, these were 0.901 to 0.934.
+constexpr double kLeastIou = 0.92;
 // From farther off a pixel is nearly a voxel. The reference filters a mask over a square of the pixel's longest side on
 // the card, as trilinear filtering does, so cards seen edge on lose their border in it: from there its one ray a pixel
-// and the majority of 25 agree to 0.92 only. So the truth is what most of nine rays meet, whose squares are a third as
-// wide.
-constexpr unsigned kRaysAside = 3;
+// and the majority of nine agree to 0.93 only. So we are held against both, with less against one. Without, these were
+// 0.883 to 0.888 and 0.903 to 0.910.
+constexpr double kLeastIouOfOne = 0.9, kLeastIouOfNine = 0.92;
 
 class LeafCards : public GlTest {
 protected:
@@ -26,18 +27,19 @@ protected:
     fmt::print("{}: {}\n", scene.scene().name, describe(fidelity));
     return fidelity;
   }
-  /// Of what the renderer and most of nine rays of the reference hit.
-  double silhouetteIou(const TestScene& scene, glm::vec3 eye, glm::uvec2 sizePixels) {
+  /// Of what the renderer and most of a pixel's rays of the reference hit.
+  double silhouetteIou(const TestScene& scene, glm::vec3 eye, glm::uvec2 sizePixels, unsigned raysAside) {
     const auto viewOf = [&](glm::uvec2 size) { return scene.view(eye, {0, 1500, 0}, size, 50); };
     const auto renderer = scene.makeRenderer(context().info());
     renderer->render(viewOf(sizePixels));
     const std::vector<bool> found = hitsOf(renderer->readLayers(), sizePixels, 1);
-    const std::vector<bool> truth = hitsOf(scene.reference(viewOf(kRaysAside * sizePixels)), sizePixels, kRaysAside);
+    const std::vector<bool> truth = hitsOf(scene.reference(viewOf(raysAside * sizePixels)), sizePixels, raysAside);
     std::size_t both = 0, onlyFound = 0, onlyTruth = 0;
     for (std::size_t p = 0; p < found.size(); ++p)
       both += found[p] && truth[p], onlyFound += found[p] && !truth[p], onlyTruth += !found[p] && truth[p];
     const double iou = static_cast<double>(both) / static_cast<double>(both + onlyFound + onlyTruth);
-    fmt::print("{}: IoU {:.4f}, {} pixels too many, {} too few\n", scene.scene().name, iou, onlyFound, onlyTruth);
+    fmt::print("{}: {} rays a pixel, IoU {:.4f}, {} pixels too many, {} too few\n", scene.scene().name,
+               raysAside * raysAside, iou, onlyFound, onlyTruth);
     return iou;
   }
 
@@ -75,8 +77,10 @@ TEST_F(LeafCards, TreeAt256KeepsItsLeaves) {
 TEST_F(LeafCards, FromFarAlongTheAxesTheyKeepTheirOutline) {
   BRICKFIELD_NEEDS_DATA("tree_leaf_cards.glb");
   const TestScene scene(dataFile("tree_leaf_cards.glb"), "all", 256);
-  for (const glm::vec3 eye : {glm::vec3(300, 1700, 4200), glm::vec3(4200, 1700, -300), glm::vec3(300, 1700, -4200)})
-    EXPECT_GE(silhouetteIou(scene, eye, {640, 640}), kLeastIou) << eye.x;
+  for (const glm::vec3 eye : {glm::vec3(300, 1700, 4200), glm::vec3(4200, 1700, -300), glm::vec3(300, 1700, -4200)}) {
+    EXPECT_GE(silhouetteIou(scene, eye, {640, 640}, 1), kLeastIouOfOne) << eye.x;
+    EXPECT_GE(silhouetteIou(scene, eye, {640, 640}, 3), kLeastIouOfNine) << eye.x;
+  }
 }
 
 } // namespace

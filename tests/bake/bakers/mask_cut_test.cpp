@@ -1,10 +1,13 @@
 // Alpha-masked sheets are cut to the shape of their mask.
 #include "bakers/mask_cut.h"
 
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "field/brick_layout.h"
+#include "field/card_crossing.h"
 #include "field/surface_attributes.h"
 #include "tests/bake/bakers/mesh_cases.h"
 
@@ -123,6 +126,31 @@ TEST(MaskCut, CardsAreAsThinAsTheirMiddleAllowsAndNeverLost) {
     }
     EXPECT_NEAR(thickness, 0.525, 0.02) << tilt; // half of it; steps of the code are 0.031
   }
+}
+
+TEST(MaskCut, CardsAsThinAsCanBeTellWhichWayTheyFace) {
+  const auto bytesOf = [](const MeshCase& card, float thickness) {
+    BakeSettings settings = settingsOf(48);
+    settings.thickness = thickness;
+    const BrickField field = bakeField(card.input(), settings).field;
+    std::set<std::uint32_t> bytes;
+    for (const BrickLevel& level : field.levels)
+      for (const std::uint32_t material : level.material) bytes.insert(material >> 24);
+    return bytes;
+  };
+  MeshCase card = diskCard();
+  const glm::vec3 normal = glm::normalize(glm::vec3(-0.3f, 1, 0));
+  for (glm::vec3& p : card.primitive().positions) p.y = 0.3f * p.x;
+  using Bytes = std::set<std::uint32_t>;
+  EXPECT_EQ(bytesOf(card, 0), Bytes{cardByte(nearestCardAxis(normal), false)});
+  card.material().unlit = true;
+  EXPECT_EQ(bytesOf(card, 0), Bytes{cardByte(nearestCardAxis(normal), true)});
+  EXPECT_EQ(bytesOf(card, 0.2f), Bytes{255}) << "as thick as asked for";
+  card.material().doubleSided = false;
+  EXPECT_EQ(bytesOf(card, 0), Bytes{255}) << "coverage tells its sides apart, and nothing of its middle";
+  card.material().doubleSided = true, card.material().unlit = false;
+  card.material().alphaMode = AlphaMode::Opaque;
+  EXPECT_EQ(bytesOf(card, 0), Bytes{0});
 }
 
 TEST(MaskCut, CutoffDecides) {
