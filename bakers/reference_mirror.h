@@ -14,7 +14,6 @@ struct MirroredDirection {
 ///
 /// normal, towardsViewer  unit; a viewer below the surface (bent normals do that) counts as just above
 /// square                 in [0,1)²
-/// source                 Heitz, "Sampling the GGX Distribution of Visible Normals", 2018
 /// proved by tests/oracle/bakers/reference_mirror_test.cpp
 MirroredDirection sampleMirrored(const SurfaceBrdf& brdf, glm::vec3 normal, glm::vec3 towardsViewer, glm::vec2 square);
 

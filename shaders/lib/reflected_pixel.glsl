@@ -3,6 +3,7 @@
 // then what lies between; a pixel like none of the four around it is traced itself.
 #include "lib/gbuffer.glsl"
 #include "lib/mirror_lobe.glsl"
+#include "lib/visible_normals.glsl"
 #include "shared/sdf_params.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -61,19 +62,6 @@ float turnOfPixel(ivec2 pixel, ReflectedPixel own) {
   return turn;
 }
 
-// Which normal of a GGX lobe the viewer sees at a point of the square (Heitz 2018); all in the world.
-vec3 visibleNormal(float alpha, vec3 normal, vec3 toViewer, vec2 square) {
-  vec3 right = normalize(abs(normal.z) < 0.9 ? cross(normal, vec3(0.0, 0.0, 1.0)) : cross(normal, vec3(1.0, 0.0, 0.0)));
-  mat3 worldFromLobe = mat3(right, cross(normal, right), normal);
-  vec3 viewer = toViewer * worldFromLobe;
-  vec3 drawn = normalize(vec3(alpha * viewer.xy, max(viewer.z, 1e-3)));
-  vec3 across = dot(drawn.xy, drawn.xy) > 1e-12 ? normalize(vec3(-drawn.y, drawn.x, 0.0)) : vec3(1.0, 0.0, 0.0);
-  float radius = sqrt(square.x), angle = radians(360.0) * square.y, share = 0.5 * (1.0 + drawn.z), x = radius * cos(angle);
-  float y = mix(sqrt(max(1.0 - x * x, 0.0)), radius * sin(angle), share);
-  vec3 onSphere = x * across + y * cross(drawn, across) + sqrt(max(1.0 - x * x - y * y, 0.0)) * drawn;
-  return worldFromLobe * normalize(vec3(alpha * onSphere.xy, max(onSphere.z, 0.0)));
-}
-
 // The part of its lobe that a pixel traces.
 struct LobePart {
   vec3 direction;
@@ -81,7 +69,7 @@ struct LobePart {
 };
 
 LobePart lobePart(ivec2 place, ReflectedPixel pixel) {
-  const float GOLDEN = 0.61803399;
+  const float GOLDEN = 0.61803399, LEAST_N_DOT_V = 1e-3; // bent normals may turn away from the viewer
   float whole = spreadOfRoughness(pixel.roughness), turn = turnOfPixel(place, pixel);
   float share = lobeShare(pixel.roughness, turn * float(scale));
   float spread = length(vec2(mix(whole, whole / float(2 * SHARERS), share), turn));
@@ -89,7 +77,11 @@ LobePart lobePart(ivec2 place, ReflectedPixel pixel) {
   ivec2 cell = place / scale % SHARERS;
   int number = (cell.x + SHARERS * cell.y) * 7 % (SHARERS * SHARERS); // neighbours far apart
   vec2 square = vec2((float(number) + 0.5) / float(SHARERS * SHARERS), fract(float(number) * GOLDEN));
-  vec3 halfway = visibleNormal(share * pixel.roughness * pixel.roughness, pixel.bent, pixel.toViewer, square);
+  vec3 aside = abs(pixel.bent.z) < 0.9 ? vec3(0.0, 0.0, 1.0) : vec3(1.0, 0.0, 0.0), right = normalize(cross(pixel.bent, aside));
+  mat3 worldFromLobe = mat3(right, cross(pixel.bent, right), pixel.bent);
+  vec3 viewer = pixel.toViewer * worldFromLobe;
+  viewer = normalize(vec3(viewer.xy, max(viewer.z, LEAST_N_DOT_V)));
+  vec3 halfway = worldFromLobe * visibleNormal(share * pixel.roughness * pixel.roughness, viewer, square);
   return LobePart(offSurface(reflect(-pixel.toViewer, halfway), pixel.normal), spread);
 }
 

@@ -1,6 +1,7 @@
 // Scale and bias of f0 in the split sum (Karis 2013): x = cosine to the viewer, y = roughness.
 #include "lib/brdf.glsl"
 #include "lib/environment.glsl"
+#include "lib/visible_normals.glsl"
 #include "shared/bindings.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -16,12 +17,10 @@ void main() {
   const uint kSamples = 256u;
   vec2 sum = vec2(0.0);
   for (uint i = 0u; i < kSamples; ++i) {
-    vec3 h = sampleGgx(hammersley(i, kSamples), alpha);
-    vec3 l = 2.0 * dot(v, h) * h - v;
-    float vDotH = max(dot(v, h), 0.0);
-    if (l.z <= 0.0 || vDotH <= 0.0) continue;
-    float share = visibilitySmith(l.z, nDotV, alpha) * 4.0 * l.z * vDotH / max(h.z, 1e-4);
-    float fresnel = pow(1.0 - vDotH, 5.0);
+    vec3 h = visibleNormal(alpha, v, hammersley(i, kSamples));
+    float vDotH = max(dot(v, h), 0.0), nDotL = 2.0 * vDotH * h.z - nDotV;
+    if (nDotL <= 0.0) continue;
+    float share = unhiddenShare(alpha, nDotV, nDotL), fresnel = pow(1.0 - vDotH, 5.0);
     sum += vec2(1.0 - fresnel, fresnel) * share;
   }
   imageStore(environment_brdf, texel, vec4(sum / float(kSamples), 0.0, 0.0));

@@ -44,8 +44,8 @@ TEST(ReferenceMirror, SendsBackOfEvenLightWhatTheTableSays) {
       forEachMirrored(brdf, viewerAt(nDotV), [&](const MirroredDirection& way) { sum += way.weight; });
       const glm::vec2 entry = environmentBrdf(roughness, nDotV);
       const glm::vec3 found(sum / double{kDirections});
-      expectNear(found, brdf.f0 * entry.x + entry.y, 0.02f); // where grazing, the table is 0.019 off the integral
-      if (roughness < 0.5f) continue;                        // too sharp a lobe for the quadrature
+      expectNear(found, brdf.f0 * entry.x + entry.y, 0.008f); // the table has cells
+      if (roughness < 0.5f) continue;                         // too sharp a lobe for the quadrature
       EXPECT_NEAR(found.x, lobeOver(brdf, viewerAt(nDotV), [](glm::vec3) { return true; }), 0.002);
     }
 }

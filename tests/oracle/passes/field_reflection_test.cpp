@@ -229,7 +229,7 @@ TEST_F(FieldReflection, LobesAreAsWideAsSurfacesAreRough) {
         const float share = met / all;
         if (share < 0.05f || share > 0.95f) continue;
         ++partly, sum += std::abs(found - share), signedSum += found - share;
-        ASSERT_NEAR(found, share, 0.3f) << "roughness " << roughness << " pixel " << i;
+        ASSERT_NEAR(found, share, 0.4f) << "roughness " << roughness << " pixel " << i;
       }
       const double mean = sum / static_cast<double>(partly), bias = signedSum / static_cast<double>(partly);
       fmt::print("roughness {}, 1 in {}: share of the sphere within {:.3f} on average, {:+.3f}, {} pixels\n", roughness,
