@@ -143,6 +143,39 @@ inline StripSums multiplyStrips(std::span<const Rims::EdgeQuad> edges, const Rim
   return sums;
 }
 
+QUAD_INLINE Quad lanesOf(const double* lanes) {
+  Quad v;
+  std::memcpy(&v, lanes, sizeof(v));
+  return v;
+}
+
+/// Loops off the ray that are so many of their radii away.
+inline void sumFarLoops(std::span<const Rims::LoopQuad> loops, const RayWinding::Ray& ray, double farRadii,
+                        FarLoops& far) {
+  const glm::dvec3 way = ray.direction();
+  const Quad zero = quad(0.0), one = quad(1.0);
+  Quad flux = zero, spread = zero;
+  std::size_t number = 0;
+  for (const Rims::LoopQuad& loop : loops) {
+    const Quad3 toCenter{lanesOf(loop.center[0]) - quad(ray.origin.x), lanesOf(loop.center[1]) - quad(ray.origin.y),
+                         lanesOf(loop.center[2]) - quad(ray.origin.z)};
+    const Quad radius = lanesOf(loop.radius), squared = dotOf(toCenter, toCenter), distance = rootOf(squared);
+    const Quad away = distance - radius;
+    const Quad ahead = dotOf(toCenter, {quad(way.x), quad(way.y), quad(way.z)});
+    const QuadMask isOnRay = (ahead > zero - radius) & (squared - ahead * ahead < radius * radius);
+    const QuadMask isFar = (away > quad(farRadii - 1) * radius) & ~isOnRay;
+    const Quad area = dotOf({lanesOf(loop.areaVector[0]), lanesOf(loop.areaVector[1]), lanesOf(loop.areaVector[2])}, toCenter);
+    const Quad oneOverDistance = one / distance, oneOverAway = one / away;
+    flux += isFar ? area * oneOverDistance * oneOverDistance * oneOverDistance : zero;
+    spread += isFar ? lanesOf(loop.area) * radius * oneOverAway * oneOverAway * oneOverAway : zero;
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      far.near[far.nearCount] = static_cast<std::uint16_t>(number++);
+      far.nearCount += isFar[lane] == 0;
+    }
+  }
+  far.flux = sumOf(flux), far.spread = sumOf(spread);
+}
+
 /// returns false where an edge comes into the ball
 inline bool addField(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& frame, glm::dvec3 point, double radius,
                      FieldSums& sums) {

@@ -28,6 +28,12 @@ struct StripSums {
   std::array<double, 4> real, imaginary; ///< lane by lane
   std::array<int, 4> turns;              ///< and whole turns
 };
+/// What loops make that count as dipoles, and which ones do not.
+struct FarLoops {
+  double flux = 0, spread = 0; ///< sums of area.r / r^3 and of area radius / away^3
+  std::array<std::uint16_t, 512> near;
+  std::size_t nearCount = 0;
+};
 struct FieldSums {
   glm::dvec3 slope{0.0}; ///< times 4 pi
   double inverseSquares = 0, inverseCubes = 0;
@@ -40,7 +46,7 @@ constexpr double kFourPi = 4.0 * std::numbers::pi;
 constexpr double kSlackTurns = 1e-9; // over rounding
 constexpr std::size_t kBundleQuads = 16;
 constexpr double kFarRadii = 3;     // of a bundle: beyond, it counts as one edge where there are many
-constexpr double kFarLoopRadii = 4; // of a loop: beyond, it makes less than 0.03 turns
+constexpr double kFarLoopRadii = 5; // of a loop: beyond, it makes less than 0.016 turns
 
 double fractionOf(const FanSums& sums) {
   double real = 1, imaginary = 0;
@@ -124,7 +130,10 @@ Rims::Rims(const TriangleSoup& soup, const std::vector<std::uint32_t>& triangles
     }
     addLoop(points);
   }
-  if (areMany()) bundleEdges();
+  if (areMany())
+    bundleEdges();
+  else
+    gatherLoops();
   // Off the planes that modelled rims lie in: a point in a triangle of the fan has no side of it.
   apex_ = sum / static_cast<double>(edgeCount_) + soup.reach * glm::dvec3(0.0137, 0.0211, 0.0173);
 }
@@ -152,6 +161,20 @@ void Rims::addLoop(const std::vector<glm::dvec3>& points) {
   }
   loop.end = static_cast<std::uint32_t>(edges_.size());
   if (!areMany()) loops_.push_back(loop);
+}
+
+void Rims::gatherLoops() {
+  constexpr double kNowhere = 1e6; // along no ray that runs along an axis
+  for (std::size_t first = 0; first < loops_.size(); first += 4) {
+    LoopQuad& quad = loopQuads_.emplace_back();
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      const bool isLoop = first + lane < loops_.size();
+      const Loop loop = isLoop ? loops_[first + lane] : Loop{0, 0, glm::dvec3(kNowhere), 0, 0, glm::dvec3(0.0)};
+      for (glm::length_t axis = 0; axis < 3; ++axis)
+        quad.center[axis][lane] = loop.center[axis], quad.areaVector[axis][lane] = loop.areaVector[axis];
+      quad.radius[lane] = loop.radius, quad.area[lane] = loop.area;
+    }
+  }
 }
 
 void Rims::bundleEdges() {
@@ -193,6 +216,12 @@ StripSums stripsOf(std::span<const Rims::EdgeQuad> edges, const Rims::Frame& fra
   return BRICKFIELD_BEST_SIMD(multiplyStrips(edges, frame, ray));
 }
 
+FarLoops farLoopsOf(std::span<const Rims::LoopQuad> loops, const RayWinding::Ray& ray) {
+  FarLoops far;
+  BRICKFIELD_BEST_SIMD(sumFarLoops(loops, ray, kFarLoopRadii, far));
+  return far;
+}
+
 void add(AngleSum& sum, const StripSums& strips) {
   for (std::size_t i = 0; i < 4; ++i) sum.add(strips.real[i], strips.imaginary[i]), sum.addTurns(strips.turns[i]);
 }
@@ -208,19 +237,12 @@ double Rims::exactTurnsAlong(const RayWinding::Ray& ray) const {
 /// Off the ray no part of a far loop's strips is between its surface and the point: they look as that does. Pieces of
 /// it are dipoles up to a radius from where they are counted, and those change by up to 2 / r^3 a way.
 NearlyTurns Rims::turnsAlong(const RayWinding::Ray& ray) const {
-  NearlyTurns nearly{0, kSlackTurns};
+  const FarLoops far = farLoopsOf(loopQuads_, ray);
+  NearlyTurns nearly{far.flux / kFourPi, 2.0 * far.spread / kFourPi + kSlackTurns};
   AngleSum near;
-  for (const Loop& loop : loops_) {
-    const glm::dvec3 toCenter = loop.center - ray.origin;
-    const double distance = glm::length(toCenter), away = distance - loop.radius;
-    if (away > (kFarLoopRadii - 1) * loop.radius && !ray.comesThrough(toCenter, loop.radius)) {
-      const double oneOverAway = 1.0 / away, oneOverDistance = 1.0 / distance;
-      nearly.turns +=
-          glm::dot(loop.areaVector, toCenter) / kFourPi * oneOverDistance * oneOverDistance * oneOverDistance;
-      nearly.slack += 2.0 * loop.area * loop.radius / kFourPi * oneOverAway * oneOverAway * oneOverAway;
-    } else {
-      add(near, stripsOf(std::span(edges_).subspan(loop.begin, loop.end - loop.begin), frame_, ray));
-    }
+  for (std::size_t i = 0; i < far.nearCount; ++i) {
+    const Loop& loop = loops_[far.near[i]];
+    add(near, stripsOf(std::span(edges_).subspan(loop.begin, loop.end - loop.begin), frame_, ray));
   }
   nearly.turns += near.turns();
   return nearly;

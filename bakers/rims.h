@@ -69,7 +69,8 @@ public:
 
   std::size_t edgeCount() const { return edgeCount_; }
   std::size_t bytes() const {
-    return edges_.size() * sizeof(EdgeQuad) + bundles_.size() * sizeof(Bundle) + loops_.size() * sizeof(Loop);
+    return edges_.size() * sizeof(EdgeQuad) + bundles_.size() * sizeof(Bundle) + loops_.size() * sizeof(Loop) +
+           loopQuads_.size() * sizeof(LoopQuad);
   }
 
   /// The winding number of the triangles less some whole number, from 0 to 1.
@@ -124,6 +125,10 @@ public:
     double area;           ///< of a surface within the ball that the loop bounds
     glm::dvec3 areaVector; ///< of any surface that it bounds
   };
+  /// Four loops as they are seen from afar, a lane each; those that are missing at the end make nothing.
+  struct LoopQuad {
+    double center[3][4], areaVector[3][4], radius[4], area[4];
+  };
   const std::vector<Loop>& loops() const { return loops_; } ///< where edges are few
   /// The k-th of a quad's five points, in soup space.
   glm::dvec3 point(std::size_t quad, std::size_t k) const {
@@ -152,11 +157,13 @@ private:
   };
   Field fieldAt(glm::dvec3 point, double radius) const;
   void addLoop(const std::vector<glm::dvec3>& points);
+  void gatherLoops();
   void bundleEdges();
 
   Frame frame_;
   std::vector<EdgeQuad> edges_;
-  std::vector<Loop> loops_;     ///< where edges are few
+  std::vector<Loop> loops_; ///< where edges are few
+  std::vector<LoopQuad> loopQuads_;
   std::vector<Bundle> bundles_; ///< where they are many
   std::size_t edgeCount_ = 0;
   glm::dvec3 apex_{0.0}; ///< of the fan
