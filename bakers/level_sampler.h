@@ -42,6 +42,14 @@ struct SampleGrid {
     return static_cast<std::size_t>((brick.z * brickCounts.y + brick.y)) * static_cast<std::size_t>(brickCounts.x) +
            static_cast<std::size_t>(brick.x);
   }
+  /// Calls visit(brick) in the order of cells.
+  template <typename Visit>
+  void forEachCell(const Visit& visit) const {
+    glm::ivec3 brick;
+    for (brick.z = 0; brick.z < brickCounts.z; ++brick.z)
+      for (brick.y = 0; brick.y < brickCounts.y; ++brick.y)
+        for (brick.x = 0; brick.x < brickCounts.x; ++brick.x) visit(brick);
+  }
   std::size_t cellCount() const {
     return static_cast<std::size_t>(brickCounts.x) * static_cast<std::size_t>(brickCounts.y) *
            static_cast<std::size_t>(brickCounts.z);

@@ -17,16 +17,6 @@ namespace {
 
 constexpr std::size_t kSamples = kBrickSampleCount;
 
-/// Calls `visit` with the cell and those of its 26 neighbours that are in the grid.
-template <typename Visit>
-void forEachAround(const SampleGrid& grid, std::size_t cell, Visit visit) {
-  const glm::ivec3 center = grid.brickOfCell(cell);
-  const glm::ivec3 low = glm::max(center - 1, 0), high = glm::min(center + 1, grid.brickCounts - 1);
-  for (int z = low.z; z <= high.z; ++z)
-    for (int y = low.y; y <= high.y; ++y)
-      for (int x = low.x; x <= high.x; ++x) visit(grid.cellOfBrick({x, y, z}));
-}
-
 constexpr float kTriangleVoxels = 0.1f; // this near a triangle, it is nearer than any membrane that matters
 
 constexpr double kColoredVoxels = 2.5; // so near a membrane, surface attributes are looked up
@@ -175,37 +165,73 @@ private:
   const LevelSigns& signs_;
 };
 
-/// Steps over cells, diagonal ones included, to the nearest of `sources`.
-std::vector<int> stepsFrom(const SampleGrid& grid, const std::vector<std::uint32_t>& sources) {
-  std::vector<int> steps(grid.cellCount(), -1);
-  std::vector<std::uint32_t> front = sources, next;
-  for (const std::uint32_t cell : sources) steps[cell] = 0;
-  for (int step = 1; !front.empty(); ++step, front.swap(next), next.clear())
-    for (const std::uint32_t cell : front)
-      forEachAround(grid, cell, [&](std::size_t neighbour) {
-        if (steps[neighbour] >= 0) return;
-        steps[neighbour] = step;
-        next.push_back(static_cast<std::uint32_t>(neighbour));
-      });
-  return steps;
-}
+/// Steps over cells, diagonal ones included, to the nearest of some cells: the chessboard distance, in two passes over
+/// rows (Rosenfeld and Pfaltz 1968). Each cell takes one more than the least of those around it that were passed
+/// before.
+class CellSteps {
+public:
+  CellSteps(const SampleGrid& grid, const std::vector<std::uint32_t>& sources)
+      : grid_(grid),
+        strides_(1, grid.brickCounts.x + 2, (grid.brickCounts.x + 2) * (grid.brickCounts.y + 2)),
+        steps_(static_cast<std::size_t>(strides_.z) * static_cast<std::size_t>(grid.brickCounts.z + 2), kFar),
+        leastOfThree_(steps_.size(), kFar) {
+    for (const std::uint32_t cell : sources) steps_[placeOf(grid.brickOfCell(cell))] = 0;
+    const glm::ivec3 last = grid.brickCounts - 1;
+    for (int z = 0; z <= last.z; ++z)
+      for (int y = 0; y <= last.y; ++y) passRow<1>({0, y, z});
+    for (int z = last.z; z >= 0; --z)
+      for (int y = last.y; y >= 0; --y) passRow<-1>({last.x, y, z});
+  }
+
+  int at(glm::ivec3 brick) const { return steps_[placeOf(brick)]; }
+
+private:
+  static constexpr int kFar = 1 << 20; // of grids without a source, and around grids
+
+  std::size_t placeOf(glm::ivec3 brick) const {
+    return static_cast<std::size_t>((brick.x + 1) + (brick.y + 1) * strides_.y + (brick.z + 1) * strides_.z);
+  }
+  /// first  where the pass enters the row
+  template <int kWay>
+  void passRow(glm::ivec3 first) {
+    int* row = &steps_[placeOf(first)];
+    int* least = &leastOfThree_[placeOf(first)];
+    const int *beside = least - kWay * strides_.y, *before = least - kWay * strides_.z;
+    for (int i = 0, x = 0; i < grid_.brickCounts.x; ++i, x += kWay) {
+      const int passed =
+          std::min(std::min(beside[x], before[x]), std::min(before[x - strides_.y], before[x + strides_.y]));
+      row[x] = std::min(row[x], 1 + std::min(passed, row[x - kWay]));
+    }
+    for (int i = 0, x = 0; i < grid_.brickCounts.x; ++i, x += kWay)
+      least[x] = std::min(row[x], std::min(row[x - 1], row[x + 1]));
+  }
+
+  const SampleGrid& grid_;
+  glm::ivec3 strides_;            ///< of places, one more on each side than there are cells
+  std::vector<int> steps_;        ///< a place
+  std::vector<int> leastOfThree_; ///< a place: of it and those beside it in its row, as of the last pass
+};
 
 } // namespace
 
 void insertMembranes(const SamplingRequest& request, const InsideTest& test, LevelSamples& level, LevelSigns& signs) {
   if (signs.mixedCells.empty()) return;
-  const std::vector<int> steps = stepsFrom(request.grid, signs.mixedCells);
+  const CellSteps steps(request.grid, signs.mixedCells);
   std::vector<std::uint32_t> cells;
-  for (std::uint32_t cell = 0; cell < steps.size(); ++cell) {
-    if (steps[cell] <= 1) cells.push_back(cell);
-    const float reach = static_cast<float>(kBrickCells * std::max(0, steps[cell] - 1));
-    if (steps[cell] > 1) level.cellBounds[cell] = std::min(level.cellBounds[cell], reach);
-  }
+  std::uint32_t number = 0;
+  request.grid.forEachCell([&](glm::ivec3 brick) {
+    const std::uint32_t cell = number++;
+    const int stepsAway = steps.at(brick);
+    if (stepsAway <= 1) cells.push_back(cell);
+    const float reach = static_cast<float>(kBrickCells * std::max(0, stepsAway - 1));
+    if (stepsAway > 1) level.cellBounds[cell] = std::min(level.cellBounds[cell], reach);
+  });
+  const auto isMixed = [&](std::uint32_t cell) { return steps.at(request.grid.brickOfCell(cell)) == 0; };
   request.admit(level.brickCount() + cells.size());
   std::vector<MembraneBrick> bricks(cells.size());
   const MembraneSampler sampler(request, test, level, signs);
   tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
-    bricks[i] = sampler.measure(cells[i], steps[cells[i]] == 0);
+    bricks[i] = sampler.measure(cells[i], isMixed(cells[i]));
     request.done(0);
   });
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -213,7 +239,7 @@ void insertMembranes(const SamplingRequest& request, const InsideTest& test, Lev
     float& bound = level.cellBounds[cell];
     bound = std::min(bound, boundBySamples(bricks[i].least));
     if (!bricks[i].samples) continue;
-    if (steps[cell] > 0 && level.brickOfCell[cell] == kNoBrick && bound > kTouchVoxels) continue;
+    if (!isMixed(cell) && level.brickOfCell[cell] == kNoBrick && bound > kTouchVoxels) continue;
     storeBrick(request, cell, bricks[i].samples->distances, level);
     signs.sampleInside.resize(level.brickCount() * kSamples);
     std::copy(bricks[i].samples->inside.begin(), bricks[i].samples->inside.end(),
