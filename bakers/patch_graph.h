@@ -15,7 +15,6 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include <tbb/concurrent_vector.h>
@@ -73,31 +72,40 @@ private:
 
 template <typename Visit>
 void PatchGraph::forEachMeeting(Visit visit) const {
-  for (std::size_t cell = 0; cell < level_->grid.cellCount(); ++cell)
-    for (glm::length_t axis = 0; axis < 3; ++axis) {
-      glm::ivec3 next = level_->grid.brickOfCell(cell);
-      if (++next[axis] < level_->grid.brickCounts[axis])
-        meetAcrossFace(cell, level_->grid.cellOfBrick(next), axis, visit);
-    }
+  const SampleGrid& grid = level_->grid;
+  const glm::ivec3 strides(1, grid.brickCounts.x, grid.brickCounts.x * grid.brickCounts.y);
+  std::size_t cell = 0;
+  grid.forEachCell([&](glm::ivec3 brick) {
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+      if (brick[axis] + 1 < grid.brickCounts[axis])
+        meetAcrossFace(cell, cell + static_cast<std::size_t>(strides[axis]), axis, visit);
+    ++cell;
+  });
 }
 
 template <typename Visit>
 void PatchGraph::meetAcrossFace(std::size_t cell, std::size_t nextCell, glm::length_t axis, Visit visit) const {
   const std::uint32_t brick = level_->brickOfCell[cell], nextBrick = level_->brickOfCell[nextCell];
+  if (brick == kNoBrick && nextBrick == kNoBrick)
+    return visit(static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(nextCell));
   const auto forEachSide = [&](std::uint32_t b, std::size_t emptyCell, bool isLast, const auto& visitSide) {
     if (b == kNoBrick) return visitSide(static_cast<std::uint32_t>(emptyCell), ~std::uint64_t{0});
     for (std::uint32_t patch = first_[b]; patch < first_[b + 1]; ++patch)
       if (const std::uint64_t samples = inFace(samplesOf(b, patch), axis, isLast); samples != 0)
         visitSide(patch, samples);
   };
-  std::array<std::pair<std::uint32_t, std::uint64_t>, kFaceSamples> there; // patches share no sample
+  struct Side {
+    std::uint32_t patch;
+    std::uint64_t samples;
+  };
+  std::array<Side, kFaceSamples> there; // patches share no sample
   std::size_t count = 0;
   forEachSide(nextBrick, nextCell, false, [&](std::uint32_t patch, std::uint64_t samples) {
     there[count++] = {patch, samples};
   });
   forEachSide(brick, cell, true, [&](std::uint32_t here, std::uint64_t ofHere) {
     for (std::size_t i = 0; i < count; ++i)
-      if (ofHere & there[i].second) visit(here, there[i].first);
+      if (ofHere & there[i].samples) visit(here, there[i].patch);
   });
 }
 

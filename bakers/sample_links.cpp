@@ -2,23 +2,38 @@
 #include "bakers/sample_links.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "bakers/float4.h"
+#include "bakers/simd_level.h"
+
+#pragma GCC diagnostic ignored "-Wpsabi" // vectors of 32 bytes are passed within this file alone, and inlined
 
 namespace brickfield {
 
 namespace {
 
 constexpr float kSegmentSlackVoxels = 1e-4f; // over the rounding of distances to float
-constexpr int kLastRow = kBrickSamples - 1;
 
 /// Samples from whose place a step along an axis stays in the brick: a slice's, by columns or rows.
 constexpr std::uint64_t columnsFor(int x) { return 0x0101010101010101u * (x > 0 ? 0x7fu : x < 0 ? 0xfeu : 0xffu); }
 constexpr std::uint64_t rowsFor(int y) {
   return y > 0 ? ~std::uint64_t{0} >> 8 : y < 0 ? ~std::uint64_t{0} << 8 : ~std::uint64_t{0};
 }
+
+/// A step to a neighbour as masks are made by it.
+struct LinkStep {
+  int places;            ///< that it leads on
+  float reach;           ///< over its length by the slack
+  std::size_t slices;    ///< from which it stays in the brick
+  std::uint64_t inBrick; ///< samples of a slice from which it does
+};
+
+#define BRICKFIELD_SIMD_FILE "bakers/sample_links.inl"
+#include "bakers/each_simd.inl"
 
 /// Calls visit(number) with 0 to count - 1 as types.
 template <std::size_t... kNumbers, typename Visit>
@@ -30,11 +45,7 @@ void forEachNumber(std::index_sequence<kNumbers...>, const Visit& visit) {
 
 SampleMask samplesOffSurface(const float* distances) {
   SampleMask mask;
-  for (std::size_t z = 0; z < mask.size(); ++z) {
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < 64; ++i) bits |= std::uint64_t{distances[64 * z + i] > 0} << i;
-    mask[z] = bits;
-  }
+  BRICKFIELD_BEST_SIMD(markPositive(distances, mask));
   return mask;
 }
 
@@ -55,26 +66,12 @@ SampleLinks::SampleLinks(const float* distances) {
   constexpr std::size_t kPad = 1 + kBrickSamples; // a step within the slice leads so far beside it at most
   std::array<float, kBrickSampleCount + 2 * kPad> padded{};
   std::copy_n(distances, kBrickSampleCount, padded.begin() + kPad);
-  for (std::size_t s = 0; s < kLaterNeighbours.size(); ++s) {
-    const Step& step = kLaterNeighbours[s];
-    const Float4 reach = broadcast(step.length + kSegmentSlackVoxels);
-    const std::uint64_t inBrick = columnsFor(step.x) & rowsFor(step.y);
-    const auto lastSlice = static_cast<std::size_t>(kLastRow - step.z);
-    for (std::size_t z = 0; z < kBrickSamples; ++z) {
-      std::uint64_t bits = 0;
-      if (z <= lastSlice) {
-        const float* here = &padded[kPad + 64 * z];
-        const float* there = here + step.x + kBrickSamples * step.y + 64 * step.z;
-        for (std::size_t quarter = 0; quarter < 16; ++quarter) {
-          Float4 a, b;
-          std::memcpy(&a, here + 4 * quarter, sizeof(a));
-          std::memcpy(&b, there + 4 * quarter, sizeof(b));
-          bits |= std::uint64_t{bitsOf(a + b > reach)} << (4 * quarter);
-        }
-      }
-      links_[s][z] = bits & inBrick;
-    }
-  }
+  std::array<LinkStep, kLaterNeighbours.size()> steps;
+  std::transform(kLaterNeighbours.begin(), kLaterNeighbours.end(), steps.begin(), [](const Step& step) {
+    return LinkStep{step.x + kBrickSamples * step.y + 64 * step.z, step.length + kSegmentSlackVoxels,
+                    static_cast<std::size_t>(kBrickSamples - step.z), columnsFor(step.x) & rowsFor(step.y)};
+  });
+  BRICKFIELD_BEST_SIMD(markAllLinks(&padded[kPad], steps, links_.data()));
 }
 
 /// Samples moved by a step.
