@@ -3,10 +3,14 @@
 #include "bakers/triangle_soup.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include "core/error.h"
 
@@ -14,40 +18,99 @@ namespace brickfield {
 
 namespace {
 
-constexpr std::uint32_t kNotWelded = ~0u;
+constexpr std::uint32_t kNone = ~0u;
 constexpr double kLeastHeightOverEdge = 1e-12; // four decimal digits above the rounding of a double cross product
 
-/// Open-addressed table of positions: far faster than a node-based map for the millions of vertices of a scan.
-class PositionWelder {
+/// The vertices of all primitives in one numbering.
+class AllVertices {
 public:
-  explicit PositionWelder(std::size_t vertexCount) : slots_(std::bit_ceil(2 * vertexCount + 2), kFree) {
-    points_.reserve(vertexCount);
+  explicit AllVertices(const BakeInput& input) {
+    for (const std::vector<glm::vec3>& positions : input.positionsObject) {
+      first_.push_back(static_cast<std::uint32_t>(positions_.size()));
+      positions_.insert(positions_.end(), positions.begin(), positions.end());
+    }
+    for (glm::vec3& position : positions_) position += glm::vec3(0.0f); // -0 becomes 0
   }
 
-  std::uint32_t indexOf(glm::vec3 position) {
-    position += glm::vec3(0.0f); // -0 becomes 0
-    std::size_t slot = hash(position) & (slots_.size() - 1);
-    while (slots_[slot] != kFree && points_[slots_[slot]] != position) slot = (slot + 1) & (slots_.size() - 1);
-    if (slots_[slot] == kFree) {
-      slots_[slot] = static_cast<std::uint32_t>(points_.size());
-      points_.push_back(position);
-    }
-    return slots_[slot];
-  }
-  const LargeVector<glm::vec3>& points() const { return points_; }
+  std::uint32_t count() const { return static_cast<std::uint32_t>(positions_.size()); }
+  std::uint32_t first(std::size_t primitive) const { return first_[primitive]; }
+  glm::vec3 at(std::uint32_t vertex) const { return positions_[vertex]; }
 
 private:
-  static constexpr std::uint32_t kFree = ~0u;
-  static std::size_t hash(glm::vec3 p) {
+  std::vector<std::uint32_t> first_; ///< a primitive
+  LargeVector<glm::vec3> positions_;
+};
+
+/// For each vertex the first one at its position. Vertices are dealt out by their hash, in their order, and each share
+/// is looked through by an open-addressed table of its own, which fits the cache: far faster than one for all, and on
+/// all threads.
+class PositionWelder {
+public:
+  explicit PositionWelder(const AllVertices& vertices)
+      : vertices_(vertices),
+        firstAt_(vertices.count()),
+        shareCount_(std::min(kMostShares, std::bit_ceil(std::size_t{vertices.count()} / kVerticesAShare + 1))) {
+    deal();
+    tbb::parallel_for(std::size_t{0}, shareCount_, [&](std::size_t share) { weld(share); });
+  }
+
+  std::uint32_t firstAt(std::uint32_t vertex) const { return firstAt_[vertex]; }
+
+private:
+  static constexpr std::size_t kMostShares = 256, kVerticesAShare = 4096;
+  static constexpr std::size_t kVerticesAtATime = 16384;
+  using Counts = std::array<std::uint32_t, kMostShares>;
+
+  static std::uint64_t hash(glm::vec3 p) {
     std::uint64_t h = std::bit_cast<std::uint32_t>(p.x);
     h = h * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint32_t>(p.y); // 2^64 / golden ratio: Fibonacci hashing
     h = h * 0x9e3779b97f4a7c15u + std::bit_cast<std::uint32_t>(p.z);
-    h *= 0x9e3779b97f4a7c15u;
-    return static_cast<std::size_t>(h ^ (h >> 32));
+    return h * 0x9e3779b97f4a7c15u;
+  }
+  std::size_t shareOf(std::uint64_t hash) const { return hash >> 56 & (shareCount_ - 1); }
+
+  /// By share, each in the order of the vertices.
+  void deal() {
+    const std::size_t count = firstAt_.size(), blocks = (count + kVerticesAtATime - 1) / kVerticesAtATime;
+    const auto forEachOf = [&](std::size_t block, const auto& visit) {
+      const std::size_t end = std::min(count, (block + 1) * kVerticesAtATime);
+      for (std::size_t v = block * kVerticesAtATime; v < end; ++v)
+        visit(static_cast<std::uint32_t>(v), shareOf(hash(vertices_.at(static_cast<std::uint32_t>(v)))));
+    };
+    std::vector<Counts> places(blocks);
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      places[block].fill(0);
+      forEachOf(block, [&](std::uint32_t, std::size_t share) { ++places[block][share]; });
+    });
+    std::uint32_t next = 0;
+    for (std::size_t share = 0; share < shareCount_; ++share) {
+      begin_[share] = next;
+      for (Counts& ofBlock : places) next += std::exchange(ofBlock[share], next);
+    }
+    begin_[shareCount_] = next;
+    dealt_.resize(count);
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      forEachOf(block, [&](std::uint32_t vertex, std::size_t share) { dealt_[places[block][share]++] = vertex; });
+    });
+  }
+  void weld(std::size_t share) {
+    const std::span<const std::uint32_t> own(dealt_.data() + begin_[share], begin_[share + 1] - begin_[share]);
+    std::vector<std::uint32_t> slots(std::bit_ceil(2 * own.size() + 2), kNone);
+    for (const std::uint32_t vertex : own) {
+      const glm::vec3 position = vertices_.at(vertex);
+      const std::uint64_t h = hash(position);
+      std::size_t slot = (h ^ (h >> 32)) & (slots.size() - 1);
+      while (slots[slot] != kNone && vertices_.at(slots[slot]) != position) slot = (slot + 1) & (slots.size() - 1);
+      if (slots[slot] == kNone) slots[slot] = vertex;
+      firstAt_[vertex] = slots[slot];
+    }
   }
 
-  LargeVector<std::uint32_t> slots_;
-  LargeVector<glm::vec3> points_;
+  const AllVertices& vertices_;
+  LargeVector<std::uint32_t> firstAt_;
+  std::size_t shareCount_; ///< a power of two
+  LargeVector<std::uint32_t> dealt_;
+  std::array<std::uint32_t, kMostShares + 1> begin_{}; ///< a share: of dealt_
 };
 
 void checkPrimitive(const BakeInput& input, std::size_t primitiveIndex) {
@@ -70,50 +133,120 @@ bool hasArea(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
   return glm::length(glm::cross(ab, ac)) > kLeastHeightOverEdge * longestSquared;
 }
 
-void gatherPrimitive(TriangleSoup& soup, PositionWelder& welder, const BakeInput& input, std::size_t primitiveIndex) {
-  const Primitive& primitive = *input.primitives[primitiveIndex];
-  const std::vector<glm::vec3>& positions = input.positionsObject[primitiveIndex];
-  LargeVector<std::uint32_t> weldedOf(positions.size(), kNotWelded); // in the order of their first use
-  const auto weld = [&](std::uint32_t vertex) {
-    if (weldedOf[vertex] == kNotWelded) weldedOf[vertex] = welder.indexOf(positions[vertex]);
-    return weldedOf[vertex];
-  };
-  for (std::size_t t = 0; t < primitive.indices.size() / 3; ++t) {
-    TriangleVertices vertices;
-    for (std::size_t k = 0; k < 3; ++k) vertices[k] = weld(primitive.indices[3 * t + k]);
-    const std::array<glm::vec3, 3> corners = {welder.points()[vertices[0]], welder.points()[vertices[1]],
-                                              welder.points()[vertices[2]]};
-    if (!hasArea(corners[0], corners[1], corners[2])) {
-      ++soup.degenerateCount;
-      if (vertices[0] != vertices[1] && vertices[1] != vertices[2] && vertices[2] != vertices[0])
-        soup.slivers.push_back(vertices);
-      continue;
-    }
-    soup.triangles.push_back(vertices);
-    soup.primitiveIndices.push_back(static_cast<std::uint32_t>(primitiveIndex));
-    soup.triangleIndices.push_back(static_cast<std::uint32_t>(t));
-    for (const glm::vec3 corner : corners) soup.boundsObject.extend(corner);
+/// What is found of a block of triangles.
+struct TriangleBlock {
+  std::uint32_t kept = 0; ///< of positive area; later where they begin in the soup
+  std::size_t degenerate = 0;
+  std::vector<TriangleVertices> slivers;
+  Box bounds;
+};
+
+/// All triangles by their welded vertices, which are numbered in the order of their first use; positions are those.
+LargeVector<TriangleVertices> weldTriangles(const BakeInput& input, std::size_t triangleCount,
+                                            LargeVector<glm::vec3>& positions) {
+  const AllVertices vertices(input);
+  const PositionWelder welder(vertices);
+  LargeVector<std::uint32_t> numberOf(vertices.count());
+  std::fill(numberOf.begin(), numberOf.end(), kNone);
+  LargeVector<TriangleVertices> triangles(triangleCount);
+  positions.reserve(vertices.count());
+  std::size_t t = 0;
+  for (std::size_t i = 0; i < input.primitives.size(); ++i) {
+    const std::vector<std::uint32_t>& indices = input.primitives[i]->indices;
+    for (std::size_t k = 0; k + 2 < indices.size(); k += 3, ++t)
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const std::uint32_t vertex = welder.firstAt(vertices.first(i) + indices[k + corner]);
+        if (numberOf[vertex] == kNone) {
+          numberOf[vertex] = static_cast<std::uint32_t>(positions.size());
+          positions.push_back(vertices.at(vertex));
+        }
+        triangles[t][corner] = numberOf[vertex];
+      }
   }
+  return triangles;
 }
+
+/// Puts those of positive area into the soup, in their order.
+class TriangleSieve {
+public:
+  TriangleSieve(const BakeInput& input, const LargeVector<TriangleVertices>& triangles,
+                const LargeVector<glm::vec3>& positions)
+      : input_(input),
+        triangles_(triangles),
+        positions_(positions),
+        blocks_((triangles.size() + kTrianglesAtATime - 1) / kTrianglesAtATime) {}
+
+  void run(TriangleSoup& soup) {
+    tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) { look(b); });
+    std::uint32_t kept = 0;
+    for (TriangleBlock& block : blocks_) {
+      kept += std::exchange(block.kept, kept);
+      soup.degenerateCount += block.degenerate;
+      soup.slivers.insert(soup.slivers.end(), block.slivers.begin(), block.slivers.end());
+      soup.boundsObject.extend(block.bounds);
+    }
+    soup.triangles.resize(kept);
+    soup.primitiveIndices.resize(kept);
+    soup.triangleIndices.resize(kept);
+    tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) { put(b, soup); });
+  }
+
+private:
+  static constexpr std::size_t kTrianglesAtATime = 8192;
+
+  bool isKept(std::size_t t) const {
+    const TriangleVertices& v = triangles_[t];
+    return hasArea(positions_[v[0]], positions_[v[1]], positions_[v[2]]);
+  }
+  std::size_t endOf(std::size_t b) const { return std::min(triangles_.size(), (b + 1) * kTrianglesAtATime); }
+  void look(std::size_t b) {
+    TriangleBlock& block = blocks_[b];
+    for (std::size_t t = b * kTrianglesAtATime; t < endOf(b); ++t) {
+      const TriangleVertices& v = triangles_[t];
+      if (isKept(t)) {
+        ++block.kept;
+        for (const std::uint32_t vertex : v) block.bounds.extend(positions_[vertex]);
+        continue;
+      }
+      ++block.degenerate;
+      if (v[0] != v[1] && v[1] != v[2] && v[2] != v[0]) block.slivers.push_back(v);
+    }
+  }
+  void put(std::size_t b, TriangleSoup& soup) const {
+    std::size_t primitive = 0, first = 0; // of the primitive
+    const auto countOf = [&] { return input_.primitives[primitive]->indices.size() / 3; };
+    std::size_t to = blocks_[b].kept;
+    const bool isWhole = blocks_[b].degenerate == 0;
+    for (std::size_t t = b * kTrianglesAtATime; t < endOf(b); ++t) {
+      while (t >= first + countOf()) first += countOf(), ++primitive;
+      if (!isWhole && !isKept(t)) continue;
+      soup.triangles[to] = triangles_[t];
+      soup.primitiveIndices[to] = static_cast<std::uint32_t>(primitive);
+      soup.triangleIndices[to] = static_cast<std::uint32_t>(t - first);
+      ++to;
+    }
+  }
+
+  const BakeInput& input_;
+  const LargeVector<TriangleVertices>& triangles_;
+  const LargeVector<glm::vec3>& positions_;
+  std::vector<TriangleBlock> blocks_;
+};
 
 } // namespace
 
 TriangleSoup gatherTriangles(const BakeInput& input) {
   if (!input.scene || input.primitives.size() != input.positionsObject.size())
     throw BadInput(input.label, "", "has no scene, or not one array of positions a primitive");
-  std::size_t vertexCount = 0;
+  std::size_t triangleCount = 0;
   for (std::size_t i = 0; i < input.primitives.size(); ++i) {
     checkPrimitive(input, i);
-    vertexCount += input.positionsObject[i].size();
+    triangleCount += input.primitives[i]->indices.size() / 3;
   }
   TriangleSoup soup;
-  std::size_t triangleCount = 0;
-  for (const Primitive* primitive : input.primitives) triangleCount += primitive->indices.size() / 3;
-  soup.triangles.reserve(triangleCount);
-  soup.primitiveIndices.reserve(triangleCount);
-  soup.triangleIndices.reserve(triangleCount);
-  PositionWelder welder(vertexCount);
-  for (std::size_t i = 0; i < input.primitives.size(); ++i) gatherPrimitive(soup, welder, input, i);
+  LargeVector<glm::vec3> positions;
+  const LargeVector<TriangleVertices> triangles = weldTriangles(input, triangleCount, positions);
+  TriangleSieve(input, triangles, positions).run(soup);
   if (soup.triangles.empty())
     throw BadInput(input.label, "", fmt::format("has no triangle of positive area ({} without)", soup.degenerateCount));
 
@@ -121,8 +254,9 @@ TriangleSoup gatherTriangles(const BakeInput& input) {
   soup.centerObject = glm::dvec3(soup.boundsObject.center());
   soup.unitsPerMetre = std::ldexp(1.0, -std::ilogb(halfDiagonal));
   soup.reach = halfDiagonal * soup.unitsPerMetre * (1.0 + 1e-6); // 1e-6: the centre is rounded to float
-  soup.positions.reserve(welder.points().size());
-  for (const glm::vec3 point : welder.points()) soup.positions.push_back(soup.soupFromObject(point));
+  soup.positions.resize(positions.size());
+  tbb::parallel_for(std::size_t{0}, positions.size(),
+                    [&](std::size_t v) { soup.positions[v] = soup.soupFromObject(positions[v]); });
   return soup;
 }
 
