@@ -2,9 +2,10 @@
 #include "bakers/mesh_topology.h"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
+#include <utility>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "bakers/disjoint_sets.h"
@@ -12,8 +13,6 @@
 namespace brickfield {
 
 namespace {
-
-constexpr std::size_t kVerticesAtATime = 4096;
 
 struct DirectedEdge {
   std::uint32_t small = 0, large = 0; ///< its vertices
@@ -23,45 +22,102 @@ struct DirectedEdge {
   bool forward = false;               ///< from the smaller to the larger vertex
 };
 
-/// By smaller, then larger vertex, then triangle, then corner: counted into a bucket for each smaller vertex, in the
-/// order of the triangles, and then each bucket, of some six edges, sorted by the larger one.
-LargeVector<DirectedEdge> sortedEdges(const TriangleSoup& soup) {
-  LargeVector<std::uint32_t> firstOf(soup.positions.size() + 1, 0);
-  const auto forEach = [&](const auto& visit) {
-    const auto visitAll = [&](const auto& triangles, std::size_t firstNumber) {
-      for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (std::uint8_t k = 0; k < 3; ++k) {
-          const std::uint32_t from = triangles[t][k], to = triangles[t][(k + 1u) % 3u];
-          visit(DirectedEdge{std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(firstNumber + t),
-                             triangles[t][(k + 2u) % 3u], k, from < to});
-        }
+/// By smaller, then larger vertex, then triangle, then corner. Edges are dealt out by blocks of smaller vertices, on
+/// all threads; each block counts its own into a bucket for each vertex, and sorts each bucket, of some six edges.
+class SortedEdges {
+public:
+  explicit SortedEdges(const TriangleSoup& soup)
+      : soup_(soup),
+        edges_(3 * (soup.triangles.size() + soup.slivers.size())),
+        begin_(soup.positions.size() / kVerticesAtATime + 2) {
+    const LargeVector<std::uint32_t> dealt = deal();
+    tbb::parallel_for(std::size_t{0}, blockCount(), [&](std::size_t block) {
+      sortBlock(block, std::span(dealt).subspan(begin_[block], begin_[block + 1] - begin_[block]));
+    });
+  }
+
+  std::span<const DirectedEdge> all() const { return edges_; }
+  /// All edges of a smaller vertex are in one block.
+  std::size_t blockCount() const { return begin_.size() - 1; }
+  std::span<const DirectedEdge> ofBlock(std::size_t block) const {
+    return all().subspan(begin_[block], begin_[block + 1] - begin_[block]);
+  }
+
+private:
+  static constexpr std::size_t kVerticesAtATime = 4096, kTrianglesAtATime = 16384;
+
+  const TriangleVertices& verticesOf(std::size_t triangle) const {
+    const std::size_t count = soup_.triangles.size();
+    return triangle < count ? soup_.triangles[triangle] : soup_.slivers[triangle - count];
+  }
+  /// number  of the triangle, three times, and its corner
+  DirectedEdge edge(std::uint32_t number) const {
+    const std::size_t t = number / 3, k = number % 3;
+    const TriangleVertices& v = verticesOf(t);
+    const std::uint32_t from = v[k], to = v[(k + 1) % 3];
+    return {std::min(from, to), std::max(from, to),           static_cast<std::uint32_t>(t),
+            v[(k + 2) % 3],     static_cast<std::uint8_t>(k), from < to};
+  }
+  /// Numbers of edges by block, ascending in each.
+  LargeVector<std::uint32_t> deal() {
+    const std::size_t parts = (edges_.size() + 3 * kTrianglesAtATime - 1) / (3 * kTrianglesAtATime);
+    const std::size_t triangleCount = edges_.size() / 3;
+    const auto forEachOf = [&](std::size_t part, const auto& visit) {
+      const std::size_t end = std::min(triangleCount, (part + 1) * kTrianglesAtATime);
+      for (std::size_t t = part * kTrianglesAtATime; t < end; ++t) {
+        const TriangleVertices& v = verticesOf(t);
+        for (std::size_t k = 0; k < 3; ++k)
+          visit(static_cast<std::uint32_t>(3 * t + k), std::min(v[k], v[(k + 1) % 3]) / kVerticesAtATime);
+      }
     };
-    visitAll(soup.triangles, 0);
-    visitAll(soup.slivers, soup.triangles.size());
-  };
-  forEach([&](const DirectedEdge& edge) { ++firstOf[edge.small + 1]; });
-  for (std::size_t v = 1; v < firstOf.size(); ++v) firstOf[v] += firstOf[v - 1];
-  LargeVector<DirectedEdge> edges(firstOf.back());
-  LargeVector<std::uint32_t> place(firstOf.begin(), firstOf.end() - 1);
-  forEach([&](const DirectedEdge& edge) { edges[place[edge.small]++] = edge; });
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, place.size(), kVerticesAtATime), [&](const auto& block) {
-    for (std::size_t v = block.begin(); v < block.end(); ++v)
-      std::sort(edges.begin() + firstOf[v], edges.begin() + firstOf[v + 1],
-                [](const DirectedEdge& a, const DirectedEdge& b) {
-                  if (a.large != b.large) return a.large < b.large;
-                  return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner;
-                });
-  });
-  return edges;
-}
+    std::vector<std::vector<std::uint32_t>> places(parts, std::vector<std::uint32_t>(blockCount(), 0));
+    tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
+      forEachOf(part, [&](std::uint32_t, std::size_t block) { ++places[part][block]; });
+    });
+    std::uint32_t next = 0;
+    for (std::size_t block = 0; block < blockCount(); ++block) {
+      begin_[block] = next;
+      for (std::vector<std::uint32_t>& ofPart : places) next += std::exchange(ofPart[block], next);
+    }
+    begin_.back() = next;
+    LargeVector<std::uint32_t> dealt(edges_.size());
+    tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
+      forEachOf(part, [&](std::uint32_t number, std::size_t block) { dealt[places[part][block]++] = number; });
+    });
+    return dealt;
+  }
+  void sortBlock(std::size_t block, std::span<const std::uint32_t> numbers) {
+    const std::size_t firstVertex = block * kVerticesAtATime;
+    const std::size_t count = std::min(kVerticesAtATime, soup_.positions.size() - firstVertex);
+    std::vector<std::uint32_t> place(count + 1, 0);
+    LargeVector<DirectedEdge> unsorted(numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      unsorted[i] = edge(numbers[i]);
+      ++place[unsorted[i].small - firstVertex + 1];
+    }
+    std::partial_sum(place.begin(), place.end(), place.begin());
+    const std::span<DirectedEdge> edges = std::span(edges_).subspan(begin_[block], numbers.size());
+    for (const DirectedEdge& here : unsorted) edges[place[here.small - firstVertex]++] = here;
+    std::uint32_t begin = 0; // each place is where the next bucket begins by now
+    for (std::size_t v = 0; v < count; begin = place[v++])
+      std::sort(edges.begin() + begin, edges.begin() + place[v], [](const DirectedEdge& a, const DirectedEdge& b) {
+        if (a.large != b.large) return a.large < b.large;
+        return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner;
+      });
+  }
+
+  const TriangleSoup& soup_;
+  LargeVector<DirectedEdge> edges_;
+  std::vector<std::uint32_t> begin_; ///< a block
+};
 
 /// Calls `visit` with the run of entries of each edge.
 template <typename Visit>
-void forEachEdge(const LargeVector<DirectedEdge>& edges, Visit visit) {
+void forEachEdge(std::span<const DirectedEdge> edges, Visit visit) {
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     while (end < edges.size() && edges[end].small == edges[begin].small && edges[end].large == edges[begin].large)
       ++end;
-    visit(std::span(edges).subspan(begin, end - begin));
+    visit(edges.subspan(begin, end - begin));
   }
 }
 
@@ -81,6 +137,22 @@ void addTwins(std::span<const DirectedEdge> uses, std::size_t triangleCount, std
     if (mayCoincide && uses[i].triangle < triangleCount) twins.push_back(uses[i].triangle);
   }
 }
+
+/// What some edges tell.
+struct EdgeFindings {
+  std::size_t openEdges = 0, nonManifoldEdges = 0;
+  std::vector<std::uint32_t> unbalanced, twisted; ///< an edge: its first triangle
+  std::vector<std::uint32_t> twins;
+
+  void add(std::span<const DirectedEdge> uses, std::size_t triangleCount) {
+    addTwins(uses, triangleCount, twins);
+    const int net = netDirection(uses);
+    openEdges += uses.size() == 1;
+    nonManifoldEdges += uses.size() > 2 || (uses.size() == 2 && net != 0);
+    if (net != 0) unbalanced.push_back(uses.front().triangle);
+    if (net != 0 && uses.size() == 2) twisted.push_back(uses.front().triangle);
+  }
+};
 
 struct SortedTriangle {
   TriangleVertices vertices; ///< ascending
@@ -125,22 +197,27 @@ void findFlatPairs(const TriangleSoup& soup, std::vector<std::uint32_t> twins, M
 MeshTopology analyseTopology(const TriangleSoup& soup) {
   MeshTopology topology;
   const std::size_t count = soup.triangles.size();
-  const LargeVector<DirectedEdge> edges = sortedEdges(soup);
-  DisjointSets components(count + soup.slivers.size());
-  std::vector<std::uint32_t> unbalanced, twisted, twins;
-  forEachEdge(edges, [&](std::span<const DirectedEdge> uses) {
-    for (const DirectedEdge& use : uses) components.unite(uses.front().triangle, use.triangle);
-    addTwins(uses, count, twins);
-    const int net = netDirection(uses);
-    topology.openEdges += uses.size() == 1;
-    topology.nonManifoldEdges += uses.size() > 2 || (uses.size() == 2 && net != 0);
-    topology.unbalancedEdges += net != 0;
-    if (net != 0) unbalanced.push_back(uses.front().triangle);
-    if (net != 0 && uses.size() == 2) twisted.push_back(uses.front().triangle);
+  const SortedEdges edges(soup);
+  SharedSets components(count + soup.slivers.size());
+  std::vector<EdgeFindings> findings(edges.blockCount());
+  tbb::parallel_for(std::size_t{0}, findings.size(), [&](std::size_t block) {
+    forEachEdge(edges.ofBlock(block), [&](std::span<const DirectedEdge> uses) {
+      for (const DirectedEdge& use : uses.subspan(1)) components.unite(uses.front().triangle, use.triangle);
+      findings[block].add(uses, count);
+    });
   });
+  std::vector<std::uint32_t> twins;
+  for (const EdgeFindings& found : findings) {
+    topology.openEdges += found.openEdges;
+    topology.nonManifoldEdges += found.nonManifoldEdges;
+    topology.unbalancedEdges += found.unbalanced.size();
+    twins.insert(twins.end(), found.twins.begin(), found.twins.end());
+  }
   std::vector<bool> isOpen(count + soup.slivers.size(), false), hasTwist = isOpen;
-  for (const std::uint32_t triangle : unbalanced) isOpen[components.rootOf(triangle)] = true;
-  for (const std::uint32_t triangle : twisted) hasTwist[components.rootOf(triangle)] = true;
+  for (const EdgeFindings& found : findings) {
+    for (const std::uint32_t triangle : found.unbalanced) isOpen[components.rootOf(triangle)] = true;
+    for (const std::uint32_t triangle : found.twisted) hasTwist[components.rootOf(triangle)] = true;
+  }
   topology.componentOf.resize(count);
   topology.inClosedComponent.resize(count);
   topology.isTwisted.resize(count);
@@ -161,7 +238,7 @@ std::vector<std::array<std::uint32_t, 3>> closedManifoldNeighbours(const Triangl
   std::vector<std::array<std::uint32_t, 3>> neighbours(soup.triangles.size());
   DisjointSets fans(3 * soup.triangles.size()); // corners that meet at an edge of their vertex
   bool isManifold = true;
-  forEachEdge(sortedEdges(soup), [&](std::span<const DirectedEdge> uses) {
+  forEachEdge(SortedEdges(soup).all(), [&](std::span<const DirectedEdge> uses) {
     if (uses.size() != 2 || netDirection(uses) != 0) {
       isManifold = false;
       return;
