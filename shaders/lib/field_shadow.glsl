@@ -14,6 +14,7 @@
 
 // By whoever includes this, before:
 //   const bool ENDS_DARK            whether half of the rays may say that the others are blocked too
+//   const float SHEET_MOST_GRAINS   what is read as deep below the surface is of a solid, not of a sheet
 //   const float LIFT_TOWARDS_EYE    so much of the lift leads to the eye besides. Nothing lies between: where a point
 //                                   stands beside a sheet, that leads out of it, on the side that is seen
 
@@ -21,18 +22,25 @@ const uint MOST_CONE_READS = 96u, MOST_RAY_READS = 64u;
 // Steps of 0.6 pass through some of the slabs that bricks hold for sheets.
 const float LIFT_GRAINS = 1.0, LEAST_STEP_GRAINS = 0.5;
 // A surface that is read as 0 is not thickened: higher than this, light passes over what is lower than a grain, which is
-// all that shades rough surfaces where the light grazes them. What is read deeper is a sheet, half a grain thick to each
-// side, and so is one whose middle lies between texels: the first reading is nearer than most of the lift.
-const float SOLID_LIFT_GRAINS = 0.25, SHEET_GRAINS = 0.1, LEAST_LIFTED = 0.8;
+// all that shades rough surfaces where the light grazes them.
+const float SOLID_LIFT_GRAINS = 0.1;
+// Sheets are half a grain thick to each side and read deeper, solids by less: in creases, which interpolation fills. Where
+// both may be, and where the cone's first reading, so far from the point, is nearer than most of the height there, as it
+// is where a sheet's middle lies between texels, a reading below the surface tells: solids are deep there.
+const float SHEET_GRAINS = 0.2, DOUBT_GRAINS = 0.1, FIRST_GRAINS = 0.5, LEAST_LIFTED = 0.8, BELOW_GRAINS = 0.75;
+// By as much the point itself is read too near, and what lies around it, up to a grain away; of sheets on average.
+const float SHEET_ERROR_GRAINS = 0.3, ERROR_FADE_GRAINS = 1.0;
 // The lift fades by this part of what the light climbs over the surface, so that the way never sinks back into it, but
-// ends after so many grains.
+// within so many grains.
 const float LIFT_FADE = 0.67, MOST_LIFT_FADE_GRAINS = 16.0;
+// More of it stays than BLOCKED_GRAINS, lest rays that hardly climb end at the surface.
+const float LEAST_LIFT_GRAINS = 0.02;
 // What hard edges fade over.
 const float LEAST_WIDTH_GRAINS = 0.1;
 // A sheet midway between texels is interpolated to nothing deeper than 0: what is as near as this is in the way.
 const float BLOCKED_GRAINS = 0.01;
 // Of what a ball permits.
-const float RELAXED = 1.6;
+const float RELAXED = 1.8;
 // Of a penumbra's radius for each ray: where steps are narrower than this none are seen, and sharing would only blur.
 const float SHARED_PIXELS = 1.0;
 const int LEAST_SURE_RAYS = 3;
@@ -65,6 +73,7 @@ ShadowReading readForShadow(vec3 pointAnchored, float mostMetres, bool keepsObje
 // stays small.
 //
 //   GRAIN  how fine the distances at the point are
+//   BELOW  where they may be a sheet's: whether they are a solid's
 //   CONE   to the light, until something reaches into it
 //   DOWN   where what the cone's first reading was of is finer than the lift: whether that lies between the surface and
 //          the cone's beginning, as a saucer does over the floor
@@ -72,13 +81,14 @@ ShadowReading readForShadow(vec3 pointAnchored, float mostMetres, bool keepsObje
 //          leads out of it from the first small step on. From the wall's far side it would cross the sheet first
 //   ASIDE  where it does not: the same from nearer to the eye, for in its middle a sheet is too flat to tell
 //   RAY    one after the other
-const uint GRAIN = 0u, DOWN = 1u, OUT = 2u, ASIDE = 3u, CONE = 4u, RAY = 5u, DONE = 6u;
+const uint GRAIN = 0u, BELOW = 1u, DOWN = 2u, OUT = 3u, ASIDE = 4u, CONE = 5u, RAY = 6u, DONE = 7u;
 
 struct March {
   uint stage;
   uint reads;  // of the stage
   float t;     // metres along the axis
   float lift;  // metres, before it fades
+  float error; // metres; of what is read at the point
   float share; // what is seen of the light, once it is DONE
   // CONE, RAY
   float sure; // metres; free up to there
@@ -106,6 +116,21 @@ vec2 wayInBall(float ball, float radius, float spread) {
   return vec2(reach - along, reach + along) / a;
 }
 
+// What the way climbs over the surface makes up for the lift, metres.
+float climbed(March march, ShadowCone cone) {
+  return march.t * max(LIFT_FADE * dot(cone.normal, cone.axis), LIFT_GRAINS / MOST_LIFT_FADE_GRAINS);
+}
+
+// What is left of the lift, metres.
+float liftLeft(March march, ShadowCone cone) {
+  return max(march.lift - climbed(march, cone), LEAST_LIFT_GRAINS * cone.grain);
+}
+
+// Where the march reads next, metres over the plane of the surface.
+float overPlane(March march, ShadowCone cone) {
+  return liftLeft(march, cone) + march.t * dot(cone.normal, cone.axis + march.across);
+}
+
 void finish(inout March march, float share) {
   march.stage = DONE;
   march.share = share;
@@ -115,11 +140,6 @@ void begin(inout March march, uint stage, float t) {
   march.stage = stage;
   march.t = t;
   march.reads = 0u;
-}
-
-// What the way climbs over the surface makes up for the lift, metres.
-float climbed(March march, ShadowCone cone) {
-  return march.t * max(LIFT_FADE * dot(cone.normal, cone.axis), LIFT_GRAINS / MOST_LIFT_FADE_GRAINS);
 }
 
 // The next ray that leaves the surface, every second one first: where all of these see the light, or none does, so do
@@ -167,12 +187,33 @@ void beginRays(inout March march, ShadowCone cone, float start, float softness, 
   beginRay(march, cone, cell);
 }
 
+// Where the cone first reads: nearer to the point it could tell no more than what was read there.
+float firstStep(ShadowCone cone) { return min(FIRST_GRAINS * cone.grain, 0.5 * cone.end); }
+
+void beginCone(inout March march, inout ShadowCone cone, float lift) {
+  march.lift = cone.lift = lift;
+  begin(march, CONE, firstStep(cone));
+}
+
+void beginOnSolid(inout March march, inout ShadowCone cone) { beginCone(march, cone, SOLID_LIFT_GRAINS * cone.grain); }
+
+void beginOnSheet(inout March march, inout ShadowCone cone) {
+  march.error = -SHEET_ERROR_GRAINS * cone.grain;
+  beginCone(march, cone, LIFT_GRAINS * cone.grain);
+}
+
+bool isOnSheet(ShadowCone cone) { return cone.lift >= LIFT_GRAINS * cone.grain; }
+
 void stepGrain(inout March march, inout ShadowCone cone, ShadowReading reading) {
   cone.grain = reading.coarsestGrain;
-  bool isSolid = reading.grain == cone.grain && reading.distanceWorld > -SHEET_GRAINS * cone.grain;
-  march.lift = cone.lift = (isSolid ? SOLID_LIFT_GRAINS : LIFT_GRAINS) * cone.grain;
   if (cone.isRectangle) cone.end = min(cone.end, max(cone.lightAt - reading.grain, 0.0)); // there it begins
-  begin(march, CONE, 0.0);
+  march.error = min(reading.distanceWorld, 0.0);
+  if (reading.grain < cone.grain || march.error < -SHEET_GRAINS * cone.grain)
+    beginOnSheet(march, cone);
+  else if (march.error < -DOUBT_GRAINS * cone.grain)
+    begin(march, BELOW, 0.0);
+  else
+    beginOnSolid(march, cone);
 }
 
 // On by a ball of the cone that nothing reaches into, and farther (Keinert and others 2014).
@@ -184,31 +225,43 @@ void goOn(inout March march, ShadowCone cone, float way, float grain) {
   if (march.sure >= cone.end) finish(march, 1.0);
 }
 
-// The cone's first step, once nothing is known to lie below where it begins.
+// The cone's first step, once nothing is known to lie below where it begins. Beside a solid too: what stands there, lower
+// than a grain, is what the rays find.
 void leaveSurface(inout March march, ShadowCone cone) {
   march.stage = CONE;
   march.reads = 1u;
-  if (march.ball < LEAST_WIDTH_GRAINS * march.ballGrain)
-    begin(march, OUT, OUT_STEP_GRAINS * cone.grain);
+  march.t = firstStep(cone);
+  if (isOnSheet(cone) && march.ball < LEAST_WIDTH_GRAINS * march.ballGrain)
+    begin(march, OUT, 0.0);
   else
-    goOn(march, cone, march.ball, march.ballGrain);
+    goOn(march, cone, wayInBall(march.ball, cone.spread * march.t, cone.spread).x, march.ballGrain);
+}
+
+void stepFirst(inout March march, ShadowCone cone, ShadowReading reading) {
+  march.ball = reading.distanceWorld;
+  march.ballGrain = reading.grain;
+  march.above = cone.lift;
+  if (!isOnSheet(cone) && march.ball < LEAST_LIFTED * overPlane(march, cone))
+    march.stage = BELOW;
+  else if (reading.grain < cone.grain && march.above >= OWN_SURFACE_GRAINS * reading.grain)
+    begin(march, DOWN, 0.0);
+  else
+    leaveSurface(march, cone);
+}
+
+void stepBelow(inout March march, inout ShadowCone cone, ShadowReading reading) {
+  if (reading.distanceWorld > -SHEET_MOST_GRAINS * cone.grain)
+    beginOnSheet(march, cone);
+  else if (cone.lift > 0.0)
+    leaveSurface(march, cone);
+  else
+    beginOnSolid(march, cone);
 }
 
 void stepCone(inout March march, inout ShadowCone cone, ShadowReading reading, float softness, int cell) {
   float radius = cone.spread * march.t, ball = reading.distanceWorld, touch = max(radius, LEAST_WIDTH_GRAINS * reading.grain);
   if (march.reads == 1u) {
-    if (cone.lift < LIFT_GRAINS * cone.grain && ball < LEAST_LIFTED * cone.lift) {
-      march.lift = cone.lift = LIFT_GRAINS * cone.grain;
-      march.reads = 0u;
-      return;
-    }
-    march.ball = ball;
-    march.ballGrain = reading.grain;
-    march.above = cone.lift - max(ball, LEAST_DOWN * cone.lift);
-    if (reading.grain < cone.grain && march.above >= OWN_SURFACE_GRAINS * reading.grain)
-      begin(march, DOWN, 0.0);
-    else
-      leaveSurface(march, cone);
+    stepFirst(march, cone, reading);
     return;
   }
   vec2 way = wayInBall(ball, radius, cone.spread);
@@ -286,11 +339,14 @@ void stepOrJump(inout March march, ShadowCone cone, ShadowReading reading) {
 // A ray is blocked at the surface; just outside it is free to LEAD / (1 + LEAD), for were it darker, all edges would move
 // outwards and gaps narrower than the fade go dark; few rays then show steps, which the sharing of pixels hides where
 // penumbrae are wide, and a small fade where they are narrow. The fade would go on inside, but sheets reach no depth: let
-// it begin there, and thin closed things leak (a saucer).
+// it begin there, and thin closed things leak (a saucer). Where nothing is nearer than the plane that the ray leaves, nothing
+// dims it.
 void stepRay(inout March march, ShadowCone cone, ShadowReading reading, int cell) {
   float past = reading.distanceWorld - BLOCKED_GRAINS * reading.grain, width = fadeWidth(march, cone), lead = LEAD * width;
-  march.free = min(march.free, (past + lead) / (max(width, LEAST_WIDTH_GRAINS * reading.grain) + lead));
-  if (past <= 0.0) {
+  float own = overPlane(march, cone);
+  bool isOwn = own > 0.0 && past >= own - 2.0 * BLOCKED_GRAINS * reading.grain;
+  if (!isOwn) march.free = min(march.free, (past + lead) / (max(width, LEAST_WIDTH_GRAINS * reading.grain) + lead));
+  if (past <= 0.0 && !isOwn) {
     endRay(march, cone, 0.0, cell);
     return;
   }
@@ -301,7 +357,8 @@ void stepRay(inout March march, ShadowCone cone, ShadowReading reading, int cell
 
 // Where the march reads next.
 vec3 placeOf(March march, ShadowCone cone) {
-  float lift = march.stage < CONE ? march.lift : max(march.lift - climbed(march, cone), 0.0);
+  if (march.stage == BELOW) return cone.origin - BELOW_GRAINS * cone.grain * cone.normal;
+  float lift = march.stage < CONE ? march.lift : liftLeft(march, cone);
   if (march.stage == DOWN) lift = march.above;
   vec3 off = cone.normal;
   if (LIFT_TOWARDS_EYE > 0.0) off += LIFT_TOWARDS_EYE * directionToEye(cone.origin - frame.eyeAnchored.xyz);
@@ -326,7 +383,7 @@ float shadowOf(ShadowCone cone, int rays, float softness, int cell) {
   if (dot(cone.normal, cone.axis) < -cone.spread) return 0.0; // behind the surface's horizon
   March march;
   march.across = vec3(0.0);
-  march.lift = cone.lift = 0.0;
+  march.lift = cone.lift = march.error = 0.0;
   march.sure = 0.0;
   march.relaxed = RELAXED;
   march.rays = rays;
@@ -338,6 +395,8 @@ float shadowOf(ShadowCone cone, int rays, float softness, int cell) {
       continue;
     }
     march.lift = cone.lift;
+    if (march.stage >= CONE)
+      reading.distanceWorld -= march.error * max(1.0 - march.t / (ERROR_FADE_GRAINS * cone.grain), 0.0);
     ++march.reads;
     if (march.stage == RAY)
       stepRay(march, cone, reading, cell);
@@ -345,6 +404,8 @@ float shadowOf(ShadowCone cone, int rays, float softness, int cell) {
       stepCone(march, cone, reading, softness, cell);
     else if (march.stage == OUT || march.stage == ASIDE)
       stepOut(march, cone, reading);
+    else if (march.stage == BELOW)
+      stepBelow(march, cone, reading);
     else if (march.stage == DOWN)
       stepDown(march, cone, reading);
     else

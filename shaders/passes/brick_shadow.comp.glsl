@@ -1,6 +1,8 @@
 // Soft shadows of the first lights by the world field, and beside surfaces by the bricks of objects.
 const bool ENDS_DARK = true;
 const float LIFT_TOWARDS_EYE = 0.5;
+// Bricks hold sheets as slabs, up to 0.56 voxels deep.
+const float SHEET_MOST_GRAINS = 0.6;
 #include "lib/field_shadow.glsl"
 #include "lib/near_bricks.glsl"
 // As many as there may be leave few registers to each: on an H200 faster than 8x4, by a tenth and more.

@@ -3,6 +3,8 @@
 const bool ENDS_DARK = false;
 // Its texels are wide: half of one towards the eye passes by what stands beside the point.
 const float LIFT_TOWARDS_EYE = 0.0;
+// As far below a sheet the field is outside of it again, but solids may be little more than a texel thick.
+const float SHEET_MOST_GRAINS = 0.2;
 #include "lib/field_shadow.glsl"
 // One warp: the barrier of the mean waits for nobody.
 const int GROUP_WIDTH = 8, GROUP_HEIGHT = 4;

@@ -192,6 +192,37 @@ TEST_F(FieldShadow, FeetOfSheetsAreLitFromTheirOwnSide) {
   }
 }
 
+// Around the place where a ball stands on the floor interpolation fills the gap between them: the floor there is lit as
+// far as the ball lets the sun pass, and no farther.
+TEST_F(FieldShadow, GapsUnderBallsAreLitAsFarAsTheSunReaches) {
+  constexpr double kRadius = 0.2;
+  Scene built = slabOverFloor();
+  built.nodes[1].matrix = glm::translate(glm::mat4(1), {0.003f, kRadius, 0.007f});
+  built.meshes[1] = makeSphereMesh(kRadius, 192, 384);
+  const TestScene scene(std::move(built), "none");
+  const auto renderer = scene.makeRenderer(context().info(), marching(128));
+  for (const double degrees : {20.0, 35.0, 50.0}) {
+    const glm::dvec3 toSun(std::cos(glm::radians(degrees)), std::sin(glm::radians(degrees)), 0);
+    renderer->setLighting(
+        makeLighting(scene.pose(), {"sun:" + std::to_string(-toSun.x) + "," + std::to_string(-toSun.y) + ",0:0.5:3"},
+                     {{1, 1}, {glm::vec3(0)}}));
+    const View view = scene.view({0.6f, 0.12f, 0}, {0.05f, 0, 0}, kSize, 35);
+    renderer->render(view);
+    std::size_t free = 0, dark = 0, covered = 0, leaking = 0;
+    for (const FloorSample& sample : floorSamples(view, renderer->readLayers())) {
+      const glm::dvec3 toBall(0.003 - sample.x, kRadius, 0.007 - sample.z);
+      const double ahead = glm::dot(toBall, toSun), past = std::sqrt(glm::dot(toBall, toBall) - ahead * ahead);
+      if (std::hypot(toBall.x, toBall.z) > 0.15) continue;
+      if (ahead < 0 || past > 1.02 * kRadius) ++free, dark += sample.visible < 0.9;
+      if (ahead > 0 && past < 0.98 * kRadius) ++covered, leaking += sample.visible > 0.1;
+    }
+    std::printf("under a ball, sun at %g degrees: %zu of %zu dark, %zu of %zu leaking\n", degrees, dark, free, leaking,
+                covered);
+    EXPECT_LE(dark, degrees < 30 ? free / 9 : free / 50) << degrees;
+    EXPECT_LE(leaking, covered / 50) << degrees;
+  }
+}
+
 // Bars as wide as their gaps, five texels each, under a sun that blurs them to one grey.
 TEST_F(FieldShadow, GapsNarrowerThanPenumbraeLetTheirShareThrough) {
   Scene built = slabOverFloor();

@@ -136,7 +136,7 @@ TEST_F(SoftShadowTruth, BricksAreReadSparingly) {
   settings.worldField.shape = {1, 128, 0, true};
   settings.countersOn = true;
   renderer.setSettings(settings);
-  constexpr std::array<double, 4> kMost{18.5, 20.4, 34.5, 39};
+  constexpr std::array<double, 4> kMost{16.8, 18.6, 34.5, 37.5};
   for (std::size_t i = 0; i < kMost.size(); ++i) {
     const PosedLight& light = lighting_.lights[i];
     renderer.setLighting({{light}, lighting_.environment});
