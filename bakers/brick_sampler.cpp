@@ -4,6 +4,7 @@
 #include "bakers/brick_sampler.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "bakers/block_distance.h"
@@ -18,6 +19,18 @@ constexpr float kOnSurfaceVoxels = 2e-6f;  // above the error of a block
 constexpr float kBoundSlackVoxels = 1e-4f; // over the rounding of distances in voxels to float
 
 bool isWanted(const SampleRows& wanted, std::size_t i) { return wanted[i / kBrickSamples] >> (i % kBrickSamples) & 1; }
+
+/// Calls visit(sample) for those that are wanted, ascending; most rows are whole.
+template <typename Visit>
+void forEachWanted(const SampleRows& wanted, const Visit& visit) {
+  for (std::size_t row = 0; row < wanted.size(); ++row) {
+    if (wanted[row] == 0xff)
+      for (std::size_t i = 0; i < kBrickSamples; ++i) visit(kBrickSamples * row + i);
+    else
+      for (unsigned rest = wanted[row]; rest != 0; rest &= rest - 1)
+        visit(kBrickSamples * row + static_cast<std::size_t>(std::countr_zero(rest)));
+  }
+}
 
 /// Samples on the surface are at zero whichever way the triangle turns and whatever was rounded.
 float onOrOff(float voxels) { return voxels < kOnSurfaceVoxels ? 0.0f : voxels; }
@@ -55,21 +68,17 @@ float SurfaceSampler::finish(glm::dvec3 point, NearestTriangle nearest) const {
 /// A brick out of reach of all triangles. The first sample names one.
 void SurfaceSampler::runFar(glm::ivec3 brick, const SampleRows& wanted, float* distances,
                             std::uint32_t* triangles) const {
-  NearestTriangle nearest;
-  for (std::size_t row = 0; row < wanted.size(); ++row) {
-    if (wanted[row] == 0) continue;
-    for (std::size_t i = kBrickSamples * row; i < kBrickSamples * (row + 1); ++i) {
-      if (!isWanted(wanted, i)) continue;
-      if (nearest.triangle == kNoTriangle) {
-        const glm::dvec3 point = grid.sample(brick, sampleOfIndex(i));
-        nearest = surface.nearest(point);
-        distances[i] = finish(point, nearest);
-      } else {
-        distances[i] = static_cast<float>(kSampledRangeVoxels);
-      }
-      triangles[i] = nearest.triangle;
-    }
-  }
+  const auto row = static_cast<std::size_t>(
+      std::find_if(wanted.begin(), wanted.end(), [](std::uint8_t samples) { return samples != 0; }) - wanted.begin());
+  if (row == wanted.size()) return;
+  const std::size_t first = kBrickSamples * row + static_cast<std::size_t>(std::countr_zero(wanted[row]));
+  const glm::dvec3 point = grid.sample(brick, sampleOfIndex(first));
+  const NearestTriangle nearest = surface.nearest(point);
+  forEachWanted(wanted, [&](std::size_t i) {
+    distances[i] = static_cast<float>(kSampledRangeVoxels);
+    triangles[i] = nearest.triangle;
+  });
+  distances[first] = finish(point, nearest);
 }
 
 /// returns false where there are too many triangles
@@ -93,21 +102,25 @@ bool SurfaceSampler::runBlock(glm::ivec3 brick, const SampleRows& wanted, float*
                  slabs && !slabs->areAllCentred() ? &heightsOf : nullptr);
   const double halfVoxels = halfThickness / grid.voxelSize;
   std::uint32_t last = near[0];
-  for (std::size_t i = 0; i < kSamples; ++i) {
-    if (!isWanted(wanted, i)) continue;
+  if (!slabs) { // samples that nothing is near are infinitely far here
+    forEachWanted(wanted, [&](std::size_t i) {
+      triangles[i] = last = nearest[i] != kNoTriangle ? nearest[i] : last;
+      distances[i] = std::min(onOrOff(found[i]), static_cast<float>(kSampledRangeVoxels));
+    });
+    return true;
+  }
+  forEachWanted(wanted, [&](std::size_t i) {
     if (nearest[i] != kNoTriangle) last = nearest[i];
     triangles[i] = last;
     if (nearest[i] == kNoTriangle)
       distances[i] = static_cast<float>(kSampledRangeVoxels);
-    else if (!slabs)
-      distances[i] = onOrOff(found[i]);
     else if (!slabs->isBehind(nearest[i]))
       distances[i] = static_cast<float>(slabs->centredDistance(nearest[i], static_cast<double>(found[i]), halfVoxels));
     else if (std::isfinite(heights[i]))
       distances[i] = static_cast<float>(slabs->distanceOver(nearest[i], static_cast<double>(heights[i]), halfVoxels));
     else
       distances[i] = finish(grid.sample(brick, sampleOfIndex(i)), {0.0, nearest[i]});
-  }
+  });
   return true;
 }
 
