@@ -120,7 +120,7 @@ private:
 };
 
 constexpr int kBlockCells = 8;
-constexpr int kCellHalvings = 2; // what more would clear costs as much as it saves
+constexpr int kCellHalvings = 3; // what a fourth would clear costs more than it saves
 
 class CellBlocks {
 public:
