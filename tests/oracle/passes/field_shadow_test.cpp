@@ -223,6 +223,36 @@ TEST_F(FieldShadow, GapsUnderBallsAreLitAsFarAsTheSunReaches) {
   }
 }
 
+// The same where two sheets meet on the floor: in their corner the field rises along no short way.
+TEST_F(FieldShadow, CornersOfSheetsAreLitFromTheirOwnSide) {
+  std::size_t lit = 0, dark = 0;
+  for (const float offset : {0.003f, 0.008f, 0.013f, 0.018f}) {
+    Scene built = slabOverFloor();
+    Mesh walls;
+    walls.primitives.emplace_back();
+    walls.primitives[0].positions = {{offset, 0, -1}, {offset, 0, 1}, {offset, 0.5f, 1}, {offset, 0.5f, -1},
+                                     {-1, 0, offset}, {1, 0, offset}, {1, 0.5f, offset}, {-1, 0.5f, offset}};
+    walls.primitives[0].normals = {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0},
+                                   {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+    walls.primitives[0].indices = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+    built.nodes[1].matrix = glm::mat4(1);
+    built.meshes[1] = std::move(walls);
+    const TestScene scene(std::move(built), "none");
+    const auto renderer = scene.makeRenderer(context().info(), marching(128));
+    renderer->setLighting(makeLighting(scene.pose(), {"sun:-1,-1,-1:0.5:3"}, {{1, 1}, {glm::vec3(0)}}));
+    const View view = scene.view({0.25f, 0.3f, 0.25f}, {0.003f, 0, 0.003f}, kSize, 12);
+    renderer->render(view);
+    const double texel = 2.4 / 128;
+    for (const FloorSample& sample : floorSamples(view, renderer->readLayers())) {
+      const double x = (sample.x - offset) / texel, z = (sample.z - offset) / texel;
+      if (std::min(x, z) > 0.1 && std::max(x, z) < 2) ++lit, dark += sample.visible < 0.98;
+    }
+  }
+  ASSERT_GT(lit, 1000u);
+  std::printf("corners of sheets: %zu of %zu dark\n", dark, lit);
+  EXPECT_LE(dark, lit / 100);
+}
+
 // Bars as wide as their gaps, five texels each, under a sun that blurs them to one grey.
 TEST_F(FieldShadow, GapsNarrowerThanPenumbraeLetTheirShareThrough) {
   Scene built = slabOverFloor();
