@@ -2,25 +2,25 @@
 // pass that includes it says how much of a light is seen. With MAPS_DECIDE shadow maps answer first, and only what they
 // are unsure of is marched.
 //
-// At half resolution every second pixel of every second row is marched first; a pixel between them takes what its
-// neighbours on the same plane say, and is marched itself where there are none or they disagree.
-#include "lib/gbuffer.glsl"
+// At half resolution every second pixel of every second row is marched first, then what shadow_fill.comp.glsl lists.
 #include "lib/group_blocks.glsl"
 #include "lib/shadow_cone.glsl"
 #include "lib/shadow_region.glsl"
+#include "lib/shadow_squares.glsl"
+#include "lib/shadowed_pixel.glsl"
+#include "lib/work_list.glsl"
 #include "shared/sdf_params.h"
 
 layout(local_size_x = GROUP_WIDTH, local_size_y = GROUP_HEIGHT) in; // by whoever includes this: whole blocks
 
 layout(std430, binding = kLightBinding) readonly buffer LightBlock { LightRow lights[]; };
-layout(binding = kShadowHalfUnit) uniform sampler2D shadow_half_read;
 layout(binding = 0, rgba8) writeonly uniform image2D shadow; // of the step: all pixels, or every fourth
 #ifdef COUNTERS_ON
 layout(std430, binding = kPassBufferABinding) buffer CounterBlock { uint counters[]; };
 layout(binding = 1, r32ui) uniform uimage2D shadow_reads;
 #endif
 
-const uint STEP_ALL = 0u, STEP_HALF = 1u, STEP_FILL = 2u;
+const uint STEP_ALL = 0u, STEP_HALF = 1u, STEP_LISTED = 2u;
 uniform uint resolutionStep;
 
 // How much of the light the cone leads to.
@@ -31,21 +31,6 @@ float visibleShare(ShadowCone cone, int light, ivec2 pixel, int cell);
 bool isOfCell();
 // Distances that this thread read.
 uint readsOfThread();
-
-struct ShadowedPixel {
-  vec3 pointEye;
-  vec3 normal;
-  float away; // from the eye, metres
-  bool isSurface;
-};
-
-ShadowedPixel shadowedPixel(ivec2 pixel) {
-  vec3 originEye, directionWorld;
-  viewRay(ndcFromPixel(vec2(pixel) + 0.5), originEye, directionWorld);
-  float t = rayParameterOfDepth(originEye, directionWorld, texelFetch(depth, pixel, 0).r);
-  vec3 normal = directionFromOctahedral(texelFetch(normal_world_oct, pixel, 0).zw);
-  return ShadowedPixel(originEye + t * directionWorld, normal, t, kindOfId(texelFetch(id, pixel, 0).r) != KIND_NONE);
-}
 
 // Without an end.
 ShadowCone coneTo(LightRow light, ShadowedPixel pixel) {
@@ -109,37 +94,10 @@ float pixelMetresOn(ShadowedPixel surface, ivec2 pixel) {
   return across / max(-dot(surface.normal, directionWorld), LEAST_COSINE);
 }
 
-bool isOnPlane(ShadowedPixel surface, vec3 pointEye, vec3 normal) {
-  const float PLANE = 0.004, SAME_NORMAL = 0.96;
-  return dot(surface.normal, normal) >= SAME_NORMAL && abs(dot(surface.normal, pointEye - surface.pointEye)) <= PLANE * surface.away;
-}
-
-// Of the neighbours that were marched, by how near they are in the picture. False: none is on the pixel's plane, or
-// they are too far apart.
-bool fillPixel(ivec2 pixel, ShadowedPixel surface, out vec4 visible) {
-  const float MOST_DIFFERENCE = 0.1;
-  ivec2 first = pixel >> 1, last = textureSize(shadow_half_read, 0) - 1;
-  vec4 sum = vec4(0.0), least = vec4(1.0), most = vec4(0.0);
-  float weights = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    ivec2 at = min(first + ivec2(i & 1, i >> 1) * (pixel & 1), last);
-    ShadowedPixel other = shadowedPixel(2 * at);
-    if (other.isSurface != surface.isSurface) continue;
-    if (surface.isSurface && !isOnPlane(surface, other.pointEye, other.normal)) continue;
-    vec4 value = texelFetch(shadow_half_read, at, 0);
-    sum += value;
-    weights += 1.0;
-    least = min(least, value);
-    most = max(most, value);
-  }
-  visible = sum / max(weights, 1.0);
-  return weights > 0.0 && all(lessThan(most - least, vec4(MOST_DIFFERENCE)));
-}
-
 // Of a square of two by two pixels, each of which asked for other parts of the lights, the mean of those on the pixel's
 // plane whose penumbrae are wide; what is sharp stays so.
 //
-// A square is of threads whose numbers differ by 1 and by a block's row.
+// A square is of threads whose numbers differ by 1 and by a block's row; of listed ones, of four in a row.
 const uint GROUP_THREADS = uint(GROUP_WIDTH * GROUP_HEIGHT);
 shared uvec2 squareVisible[GROUP_THREADS]; // 16 bits each
 shared vec4 squarePoint[GROUP_THREADS];    // eye space; w: a bit for each light whose penumbra is wide
@@ -152,8 +110,9 @@ vec4 meanOfSquare(ShadowedPixel surface, vec4 visible, bvec4 isWide) {
   squareNormal[own] = packSnorm2x16(octahedralFromDirection(surface.normal));
   barrier();
   vec4 sum = visible, weights = vec4(1.0);
+  uint nextRow = resolutionStep == STEP_LISTED ? 2u : uint(BLOCK_WIDTH);
   for (uint i = 1u; i < 4u; ++i) {
-    uint other = own ^ ((i & 1u) + uint(BLOCK_WIDTH) * (i >> 1));
+    uint other = own ^ ((i & 1u) + nextRow * (i >> 1));
     int bits = int(squarePoint[other].w);
     if (bits == 0 || !any(isWide)) continue;
     vec3 normal = directionFromOctahedral(unpackSnorm2x16(squareNormal[other]));
@@ -165,23 +124,34 @@ vec4 meanOfSquare(ShadowedPixel surface, vec4 visible, bvec4 isWide) {
   return sum / weights;
 }
 
+// Which pixel of the image is this thread's. False: none.
+bool ownPlace(out ivec2 at) {
+  if (resolutionStep != STEP_LISTED) {
+    at = ivec2(gl_WorkGroupID.xy) * ivec2(GROUP_WIDTH, GROUP_HEIGHT) + placeInBlocks(GROUP_WIDTH);
+    return all(lessThan(at, imageSize(shadow)));
+  }
+  uint thread = numberOfGroup() * GROUP_THREADS + gl_LocalInvocationIndex, entry = thread / 4u < workCount ? work[thread / 4u] : 0u;
+  int number = int(thread % 4u);
+  at = pixelOfSquare(squareOfEntry(entry), number);
+  return isMarched(entry, number);
+}
+
 void main() {
-  ivec2 at = ivec2(gl_WorkGroupID.xy) * ivec2(GROUP_WIDTH, GROUP_HEIGHT) + placeInBlocks(GROUP_WIDTH);
-  bool isInPicture = all(lessThan(at, imageSize(shadow)));
+  ivec2 at;
+  bool isOwn = ownPlace(at);
   ivec2 pixel = resolutionStep == STEP_HALF ? 2 * at : at;
   ShadowedPixel surface = ShadowedPixel(vec3(0.0), vec3(0.0), 0.0, false);
-  if (isInPicture) surface = shadowedPixel(pixel);
   vec4 visible = vec4(1.0);
   bvec4 isWide = bvec4(false);
-  if (isInPicture && (resolutionStep != STEP_FILL || !fillPixel(pixel, surface, visible))) {
+  if (isOwn) {
+    surface = shadowedPixel(pixel);
     visible = marchPixel(pixel, (at.x & 1) + 2 * (at.y & 1), surface, pixelMetresOn(surface, pixel), isWide);
   }
   visible = meanOfSquare(surface, visible, isWide);
-  if (!isInPicture) return;
+  if (!isOwn) return;
 #ifdef COUNTERS_ON
   atomicAdd(counters[COUNTER_SHADOW_READS], readsOfThread());
-  bool isKept = resolutionStep == STEP_FILL && all(equal(pixel & 1, ivec2(0))); // marched by the step before
-  if (!isKept) imageStore(shadow_reads, pixel, uvec4(readsOfThread()));
+  imageStore(shadow_reads, pixel, uvec4(readsOfThread()));
 #endif
   imageStore(shadow, at, visible);
 }

@@ -11,6 +11,7 @@ SHARED_CONST uint kShadowMapUniformBinding = 2;
 // Storage buffers. OpenGL 4.5 promises eight to a stage; no program uses more.
 SHARED_CONST uint kMeshDrawBinding = 0;
 SHARED_CONST uint kScreenBoxBinding = 0; // where no meshes are drawn
+SHARED_CONST uint kWorkListBinding = 0;
 SHARED_CONST uint kMaterialBinding = 1;
 SHARED_CONST uint kSdfInstanceBinding = 2;
 SHARED_CONST uint kSdfLevelBinding = 3;

@@ -90,7 +90,7 @@ std::size_t FrameTargets::bytes() const {
         &id,          &trace,     &shadow,        &shadowHalf,     &shadowReads, &occlusion, &occlusionTraced,
         &translucent, &thickness, &reflectionHit, &reflection,     &color,       &picture,   &boxOverdraw})
     if (*texture) sum += texture->bytes();
-  return sum;
+  return sum + shadowList.bytes() + reflectionList.bytes();
 }
 
 } // namespace brickfield

@@ -5,6 +5,7 @@
 
 #include "gpu/framebuffer.h"
 #include "gpu/texture.h"
+#include "passes/work_list.h"
 
 namespace brickfield {
 
@@ -29,7 +30,9 @@ struct FrameTargets {
   Texture occlusionTraced; ///< RG32UI: the same at fewer pixels, lib/occlusion_code.glsl
   Texture translucent; ///< RGBA16F: radiance through SDF objects, share of diffuse light; none without fitTranslucency
   Texture thickness;   ///< R32F: metres of an SDF object along the view ray; the same
-  Texture reflectionHit; ///< RGBA32UI: what reflected rays meet, lib/reflection_code.glsl; none without fitReflections
+  WorkList shadowList{"shadow_list"};         ///< squares of pixels that shadows at half resolution leave open
+  WorkList reflectionList{"reflection_list"}; ///< pixels whose reflected rays are traced
+  Texture reflectionHit; ///< RGBA32UI: what these meet, lib/reflection_code.glsl; none without fitReflections
   Texture reflection;    ///< RGBA16F: radiance that smooth surfaces mirror; the same
   Texture color;         ///< RGBA16F: linear radiance
   Texture picture;       ///< RGBA8: after the tone curve

@@ -1,5 +1,5 @@
-// One dispatch over the picture for all lights: they share the reads of the G-buffer. At half resolution two: every
-// fourth pixel, then what lies between.
+// One dispatch over the picture for all lights: they share the reads of the G-buffer. At half resolution three: every
+// fourth pixel, what their neighbours take of them, and what is left open, as a list.
 #include "passes/light/field_shadow_pass.h"
 
 #include "gpu/gl.h"
@@ -7,6 +7,21 @@
 #include "passes/world_field/field_frame.h"
 
 namespace brickfield {
+
+namespace {
+
+constexpr std::uint32_t kAll = 0, kHalf = 1, kListed = 2; // as in shaders/lib/shadow_frame.glsl
+
+std::shared_ptr<Program> loadFill(ShaderLibrary& shaders, bool counts) {
+  std::map<std::string, std::string> defines;
+  if (counts) defines = {{"COUNTERS_ON", "1"}};
+  return shaders.load({counts ? "shadow_fill_counting" : "shadow_fill",
+                       {{GL_COMPUTE_SHADER, "passes/shadow_fill.comp.glsl"}},
+                       std::move(defines),
+                       {}});
+}
+
+} // namespace
 
 FieldShadowPass::FieldShadowPass(ShaderLibrary& shaders) : shaders_(&shaders) {}
 
@@ -69,12 +84,28 @@ void FieldShadowPass::record(const FrameContext& context) {
     program.set("resolutionStep", step);
     program.dispatchOver({target.width(), target.height(), 1});
   };
-  constexpr std::uint32_t kAll = 0, kHalf = 1, kFill = 2; // as in shaders/lib/shadow_frame.glsl
   if (!settings.halfResolution) return run(context.targets.shadow, kAll);
   run(context.targets.shadowHalf, kHalf);
+  fill(context, program, counts);
+}
+
+// marching  the program that marches what is listed, all else of it set
+void FieldShadowPass::fill(const FrameContext& context, Program& marching, bool counts) {
+  FrameTargets& targets = context.targets;
+  std::shared_ptr<Program>& program = fillPrograms_[counts ? 1 : 0];
+  if (!program) program = loadFill(*shaders_, counts);
+  const glm::ivec2 squares(targets.shadowHalf.width(), targets.shadowHalf.height());
+  constexpr std::uint32_t kPixelsOfSquare = 4;
+  const glm::ivec3 group = marching.groupSize();
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  context.targets.shadowHalf.bind(shared::kShadowHalfUnit);
-  run(context.targets.shadow, kFill);
+  targets.shadowHalf.bind(shared::kShadowHalfUnit);
+  targets.shadow.bindImage(0, 0, GL_WRITE_ONLY);
+  targets.shadowList.begin(static_cast<std::size_t>(squares.x) * static_cast<std::size_t>(squares.y));
+  program->set("squaresOfGroup", static_cast<std::uint32_t>(group.x * group.y) / kPixelsOfSquare);
+  program->dispatchOver({squares.x, squares.y, 1});
+  glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  marching.set("resolutionStep", kListed);
+  targets.shadowList.dispatch(marching);
 }
 
 } // namespace brickfield
