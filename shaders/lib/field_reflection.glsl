@@ -1,5 +1,5 @@
-// One cone through the world field and, beside surfaces, the bricks of objects: how free it is where it is touched most,
-// and of whom. A cone that ends on something is not free at all; one that passes is as free as the nearest surface is
+// One cone through the world field and, with BRICKS_ON, beside surfaces the bricks of objects: how free it is where it is
+// touched most, and of whom. A cone that ends on something is not free at all; one that passes is as free as the nearest surface is
 // far, in widths of it.
 #include "lib/near_bricks.glsl"
 #include "lib/shadow_cone.glsl"
@@ -21,6 +21,11 @@ struct ReflectionRay {
   float grain;  // of what is read at the origin
 };
 
+struct ReflectionReading {
+  float distanceWorld; // metres, negative inside
+  float grain;         // metres: nothing in it is finer
+};
+
 struct ReflectionMet {
   float free;
   float t;
@@ -29,11 +34,17 @@ struct ReflectionMet {
   float grain;
 };
 
-NearDistance readForReflection(vec3 pointAnchored, float fineMetres) {
+ReflectionReading readForReflection(vec3 pointAnchored, float fineMetres) {
+  ++reflectionReads;
   FieldReading reading = readWorldField(pointAnchored);
-  NearDistance refined = refineByBricks(pointAnchored, reading, texelOf(reading), fineMetres);
-  reflectionReads += 1u + refined.reads;
-  return refined;
+  float texel = texelOf(reading);
+#ifdef BRICKS_ON
+  NearDistance refined = refineByBricks(pointAnchored, reading, texel, fineMetres);
+  reflectionReads += refined.reads;
+  return ReflectionReading(refined.distanceWorld, refined.grain);
+#else
+  return ReflectionReading(reading.distanceWorld, texel);
+#endif
 }
 
 // Whether a distance is no more than the range or the border of the coarsest window let it be: then nothing is there.
@@ -50,7 +61,7 @@ ReflectionMet traceReflection(ReflectionRay ray) {
   for (int i = 0; i < MOST_REFLECTION_READS && t < end; ++i) {
     float lift = REFLECTION_LIFT_GRAINS * ray.grain * max(1.0 - t / (REFLECTION_FADE_GRAINS * ray.grain), 0.0);
     vec3 at = ray.origin + lift * ray.normal + t * ray.direction;
-    NearDistance near = readForReflection(at, spread * t);
+    ReflectionReading near = readForReflection(at, spread * t);
     bool isMet = near.distanceWorld <= MET_GRAINS * near.grain;
     float free = isMet ? 0.0 : near.distanceWorld / max(spread * t, LEAST_CONE_GRAINS * near.grain);
     if (free < met.free && !isCutOff(at, near.distanceWorld)) met = ReflectionMet(free, t, at, near.distanceWorld, near.grain);

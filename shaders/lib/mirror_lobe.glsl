@@ -1,6 +1,7 @@
 // Which part of its lobe a pixel traces. Sixteen pixels, four by four, trace a sixteenth each, and each then takes the
-// mean over those around it. Where a surface bends, neighbours mirror elsewhere than its lobe reaches, and where it is
-// smooth there is no lobe: there pixels keep to the middle, take the whole cone and no mean.
+// mean over those around it. Where a surface is smooth there is no lobe: pixels trace its middle, and take no mean. Where
+// it bends, neighbours mirror elsewhere than its lobe reaches: there parts are wider and lie nearer to the middle, down to
+// half as far, and neighbours weigh less.
 const float KEEN_ROUGHNESS = 0.05, SHARED_ROUGHNESS = 0.25;
 const int SHARERS = 4; // along an axis
 
@@ -10,6 +11,9 @@ float spreadOfRoughness(float roughness) {
   float alpha = roughness * roughness;
   return min(2.0 * alpha / max(1.0 - alpha * alpha, 1e-3), 1.0);
 }
+
+// The other way round, for narrow ones.
+float roughnessOfSpread(float spread) { return sqrt(0.5 * spread); }
 
 // How far pixels share: 0 not at all, 1 wholly.
 //

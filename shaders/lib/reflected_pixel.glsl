@@ -1,20 +1,14 @@
-// A pixel as its reflection sees it, and which of the pixels that are traced stand for one that is not: those on about
-// the same plane, as smooth as it. The frame of both passes of reflections: first every scale-th pixel along both axes,
-// then what lies between; a pixel like none of the four around it is traced itself.
+// A pixel as its reflection sees it, and the part of its lobe that it traces. Traced are every scale-th pixel along both
+// axes, and those between that are like none of the four around them.
 #include "lib/gbuffer.glsl"
 #include "lib/mirror_lobe.glsl"
 #include "lib/visible_normals.glsl"
 #include "shared/sdf_params.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-
-uniform int scale;
-uniform bool fillsGaps;
+uniform int scale; // every so many pixels is traced, along both axes
 
 // Rougher ones mirror the surroundings alone; over a tenth before that the two blend.
 const float MOST_ROUGHNESS = 0.7;
-// As in lib/shadow_frame.glsl; and of bilinear weights what must be alike, lest one neighbour stands for all.
-const float SAME_PLANE = 0.004, SAME_NORMAL = 0.96, SAME_ROUGHNESS = 0.1, LEAST_ALIKE = 0.4;
 
 struct ReflectedPixel {
   bool isMirror;
@@ -50,6 +44,14 @@ ReflectedPixel reflectedPixel(ivec2 pixel) {
   return found;
 }
 
+// Whether two pixels are of one plane, as smooth as each other.
+bool isAlike(ReflectedPixel pixel, ReflectedPixel other) {
+  const float SAME_PLANE = 0.004, SAME_NORMAL = 0.96, SAME_ROUGHNESS = 0.1; // the first two as in lib/shadowed_pixel.glsl
+  return other.isMirror && dot(pixel.normal, other.normal) >= SAME_NORMAL &&
+         abs(dot(pixel.normal, other.pointEye - pixel.pointEye)) <= SAME_PLANE * pixel.away &&
+         abs(pixel.roughness - other.roughness) <= SAME_ROUGHNESS;
+}
+
 // How far the mirrored direction turns from a pixel to those beside and above it, as a length: what a pixel mirrors is as
 // wide, a metre away.
 float turnOfPixel(ivec2 pixel, ReflectedPixel own) {
@@ -68,10 +70,12 @@ struct LobePart {
   float spread; // metres of width a metre of way
 };
 
+float sharedLobe(ReflectedPixel pixel, float turn) { return lobeShare(pixel.roughness, turn * float(scale)); }
+
 LobePart lobePart(ivec2 place, ReflectedPixel pixel) {
   const float GOLDEN = 0.61803399, LEAST_N_DOT_V = 1e-3; // bent normals may turn away from the viewer
   float whole = spreadOfRoughness(pixel.roughness), turn = turnOfPixel(place, pixel);
-  float share = lobeShare(pixel.roughness, turn * float(scale));
+  float share = sharedLobe(pixel, turn);
   float spread = length(vec2(mix(whole, whole / float(2 * SHARERS), share), turn));
   if (share == 0.0) return LobePart(pixel.direction, spread);
   ivec2 cell = place / scale % SHARERS;
@@ -83,28 +87,4 @@ LobePart lobePart(ivec2 place, ReflectedPixel pixel) {
   viewer = normalize(vec3(viewer.xy, max(viewer.z, LEAST_N_DOT_V)));
   vec3 halfway = worldFromLobe * visibleNormal(share * pixel.roughness * pixel.roughness, viewer, square);
   return LobePart(offSurface(reflect(-pixel.toViewer, halfway), pixel.normal), spread);
-}
-
-bool isTracedPlace(ivec2 pixel) { return all(equal(pixel % scale, ivec2(0))); }
-
-bool isAlike(ReflectedPixel pixel, ReflectedPixel other) {
-  return other.isMirror && dot(pixel.normal, other.normal) >= SAME_NORMAL &&
-         abs(dot(pixel.normal, other.pointEye - pixel.pointEye)) <= SAME_PLANE * pixel.away &&
-         abs(pixel.roughness - other.roughness) <= SAME_ROUGHNESS;
-}
-
-// Weights of the four traced pixels around one; all 0 where it must be traced itself.
-vec4 weightsAround(ivec2 pixel, ReflectedPixel own, out ivec2 places[4]) {
-  ivec2 base = pixel / scale * scale, last = (ivec2(frame.size.xy) - 1) / scale * scale;
-  vec2 part = vec2(pixel - base) / float(scale);
-  vec4 weights;
-  for (int i = 0; i < 4; ++i) {
-    ivec2 corner = ivec2(i & 1, i >> 1);
-    places[i] = min(base + corner * scale, last);
-    vec2 near = mix(1.0 - part, part, vec2(corner));
-    float weight = near.x * near.y;
-    weights[i] = weight > 0.0 && isAlike(own, reflectedPixel(places[i])) ? weight : 0.0;
-  }
-  float sum = dot(weights, vec4(1.0));
-  return sum < LEAST_ALIKE ? vec4(0.0) : weights / sum;
 }

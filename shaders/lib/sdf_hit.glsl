@@ -71,14 +71,3 @@ uvec2 traceOfHit(SdfLevel level, vec3 pointLevel, uint steps, uint entry) {
   uint brickNumber = (uint(brick.z) * level.cells.z + uint(brick.y)) * level.cells.y + uint(brick.x);
   return uvec2(steps, packBrick(brickNumber + 1u, (entry >> VISIBLE_LEVEL_SHIFT) & VISIBLE_LEVEL_MASK));
 }
-
-#ifdef MOTION_ON
-layout(std430, binding = kPassBufferBBinding) readonly buffer MotionBlock { SdfMotion sdfMotions[]; };
-
-vec4 motionOfHit(uint index, SdfLevel level, vec3 pointLevel, vec3 pointEye) {
-  SdfMotion then = sdfMotions[index];
-  vec3 originThen = vec3(then.previousWorldFromGrid[0].w, then.previousWorldFromGrid[1].w, then.previousWorldFromGrid[2].w);
-  vec3 pointThen = rowsTimesDirection(then.previousWorldFromGrid, pointLevel / level.scale.x);
-  return vec4(motionOf(pointEye, pointThen + (originThen - frame.eyeWorld.xyz)), 0.0);
-}
-#endif

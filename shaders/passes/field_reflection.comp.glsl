@@ -1,8 +1,10 @@
-// What reflected rays meet, for reflection_shade.comp.glsl to say how bright it is.
+// What the reflected rays of the listed pixels meet, for reflection_shade.comp.glsl to say how bright it is.
 #include "lib/reflected_pixel.glsl"
 #include "lib/field_reflection.glsl"
 #include "lib/light_arrival.glsl"
 #include "lib/reflection_code.glsl"
+
+layout(local_size_x = REFLECTION_GROUP) in;
 
 layout(std430, binding = kLightBinding) readonly buffer LightBlock { LightRow lights[]; };
 #ifdef COUNTERS_ON
@@ -58,14 +60,9 @@ uvec4 tracedCode(ivec2 place, ReflectedPixel pixel) {
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * (fillsGaps ? 1 : scale);
-  if (any(greaterThanEqual(pixel, ivec2(frame.size.xy))) || (fillsGaps && isTracedPlace(pixel))) return;
-  ReflectedPixel own = reflectedPixel(pixel);
-  uvec4 code = REFLECTION_NOT_TRACED;
-  ivec2 places[4];
-  if (own.isMirror && (!fillsGaps || weightsAround(pixel, own, places) == vec4(0.0))) code = tracedCode(pixel, own);
+  ivec2 pixel;
+  if (listedPixel(pixel)) imageStore(reflection_hit, pixel, tracedCode(pixel, reflectedPixel(pixel)));
 #ifdef COUNTERS_ON
   atomicAdd(counters[COUNTER_REFLECTION_READS], reflectionReads);
 #endif
-  imageStore(reflection_hit, pixel, code);
 }

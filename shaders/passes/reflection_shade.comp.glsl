@@ -1,5 +1,6 @@
-// How bright it is what reflected rays met: as the picture shows it where it does, else by the attributes of the object's
-// own bricks, else by the look of its node; a cone that is partly free shows the surroundings through the rest.
+// How bright it is what the reflected rays of the listed pixels met: as the picture shows it where it does, else by the
+// attributes of the object's own bricks, else by the look of its node; a cone that is partly free shows the surroundings
+// through the rest.
 #include "lib/reflected_pixel.glsl"
 #include "lib/brick_attributes.glsl"
 #include "lib/reflection_code.glsl"
@@ -7,12 +8,14 @@
 #include "lib/surface_light.glsl"
 #include "shared/node_look_params.h"
 
+layout(local_size_x = REFLECTION_GROUP) in;
+
 layout(std430, binding = kNodeRowBinding) readonly buffer NodeRowBlock { uint nodeRows[]; };
 layout(std430, binding = kNodeLookBinding) readonly buffer NodeLookBlock { NodeLook nodeLooks[]; };
 layout(binding = kShadowUnit) uniform sampler2D shadow;
 layout(binding = kOcclusionUnit) uniform sampler2D occlusion;
 layout(binding = kReflectionHitUnit) uniform usampler2D reflection_hit;
-layout(binding = 0, rgba16f) uniform image2D reflection;
+layout(binding = 0, rgba16f) writeonly uniform image2D reflection;
 
 uniform int shadowedLights; // the first ones
 uniform bool isOccluded;
@@ -22,8 +25,9 @@ const int MOST_ROWS = 8; // instances of a node that are looked at
 // would be met by a pixel here and there.
 const float LEAST_MET_ROUGHNESS = 0.3;
 
-// A small lamp that the middle of a rough cone meets does not fill it. What one sample may send, times the square of the
-// cone's width: so much that a lamp in a mirror is as bright as it is, and on rough surfaces makes no sparks.
+// A small lamp that one ray of a rough cone meets does not fill it. What a ray may bring in, in whites of the picture,
+// times the square of the cone's width: so much that a lamp in a mirror is as bright as it is, and on rough surfaces makes
+// no sparks.
 const float MOST_OF_CONE = 1.0;
 
 struct MirroredSurface {
@@ -99,8 +103,7 @@ MirroredSurface surfaceOfNode(ReflectionHit hit, vec3 pointEye) {
   return found;
 }
 
-vec3 radianceOfMet(ivec2 place, ReflectedPixel pixel, ReflectionHit hit) {
-  vec3 direction = lobePart(place, pixel).direction;
+vec3 radianceOfMet(ivec2 place, ReflectedPixel pixel, vec3 direction, ReflectionHit hit) {
   MirroredSurface met = surfaceOfNode(hit, pixel.pointEye + hit.t * direction);
   if (hit.isSeen) met = surfaceSeen(hit, hit.t * turnOfPixel(place, pixel));
   if (met.isUnlit) return met.surface.baseColor;
@@ -113,31 +116,19 @@ vec3 radianceOfMet(ivec2 place, ReflectedPixel pixel, ReflectionHit hit) {
 
 vec3 shadedReflection(ivec2 place, ReflectedPixel pixel, uvec4 code) {
   ReflectionHit hit = reflectionOfCode(code);
-  vec3 around = environmentAround(pixel.direction, pixel.roughness);
+  LobePart part = lobePart(place, pixel);
+  vec3 around = environmentAround(part.direction, min(roughnessOfSpread(part.spread), pixel.roughness));
   if (hit.free >= 1.0) return around;
   float rough = smoothstep(MOST_ROUGHNESS - 0.1, MOST_ROUGHNESS, pixel.roughness);
-  vec3 met = radianceOfMet(place, pixel, hit);
-  float spread = spreadOfRoughness(pixel.roughness), most = MOST_OF_CONE / max(spread * spread, 1e-6);
+  vec3 met = radianceOfMet(place, pixel, part.direction, hit);
+  float spread = spreadOfRoughness(pixel.roughness), most = MOST_OF_CONE / max(spread * spread * frame.projection.w, 1e-6);
   met *= min(most / max(max(met.r, met.g), max(met.b, 1e-6)), 1.0);
   return mix(met, around, max(hit.free, rough));
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * (fillsGaps ? 1 : scale);
-  if (any(greaterThanEqual(pixel, ivec2(frame.size.xy))) || (fillsGaps && isTracedPlace(pixel))) return;
-  ReflectedPixel own = reflectedPixel(pixel);
-  uvec4 code = texelFetch(reflection_hit, pixel, 0);
-  vec3 radiance;
-  if (!own.isMirror) {
-    radiance = environmentAround(own.direction, own.roughness);
-  } else if (code == REFLECTION_NOT_TRACED) {
-    ivec2 places[4];
-    vec4 weights = weightsAround(pixel, own, places);
-    radiance = vec3(0.0);
-    for (int i = 0; i < 4; ++i)
-      if (weights[i] > 0.0) radiance += weights[i] * imageLoad(reflection, places[i]).rgb;
-  } else {
-    radiance = shadedReflection(pixel, own, code);
-  }
+  ivec2 pixel;
+  if (!listedPixel(pixel)) return;
+  vec3 radiance = shadedReflection(pixel, reflectedPixel(pixel), texelFetch(reflection_hit, pixel, 0));
   imageStore(reflection, pixel, vec4(min(radiance, vec3(65504.0)), 1.0));
 }

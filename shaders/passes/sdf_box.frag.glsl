@@ -2,7 +2,6 @@
 // and with reverse Z behind means smaller; the value is clamped to the face's own, so the promise holds to the last bit.
 // DEPTH_ONLY: into a shadow map; the frame's parameters are then those of the light's view.
 #include "lib/frame.glsl"
-#include "lib/motion.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/packing.glsl"
 #include "lib/sdf_hit.glsl"
@@ -25,9 +24,6 @@ layout(location = 2) out vec4 material;         // metallic, roughness, occlusio
 layout(location = 3) out vec3 emission;
 layout(location = 4) out uint id;
 layout(location = 5) out uvec2 trace;
-#endif
-#ifdef MOTION_ON
-layout(location = 6) out vec4 motion;
 #endif
 
 void main() {
@@ -70,8 +66,5 @@ void main() {
   emission = attributes.emission;
   id = packId(entry & VISIBLE_INDEX_MASK, KIND_SDF);
   trace = traceOfHit(level, hit.pointLevel, hit.steps, entry);
-#endif
-#ifdef MOTION_ON
-  motion = motionOfHit(entry & VISIBLE_INDEX_MASK, level, hit.pointLevel, pointEye);
 #endif
 }

@@ -3,7 +3,6 @@
 // Compute writes no depth buffer: depths of all that is seen, meshes too, go into a texture of their own.
 #include "lib/frame.glsl"
 #include "lib/group_blocks.glsl"
-#include "lib/motion.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/packing.glsl"
 #include "lib/sdf_hit.glsl"
@@ -23,9 +22,6 @@ layout(binding = 3, r11f_g11f_b10f) writeonly uniform image2D emission;
 layout(binding = 4, r32ui) writeonly uniform uimage2D id;
 layout(binding = 5, rg32ui) writeonly uniform uimage2D trace;
 layout(binding = 6, r32f) writeonly uniform image2D depth_traced;
-#ifdef MOTION_ON
-layout(binding = 7, rgba16f) writeonly uniform image2D motion;
-#endif
 
 uniform bool isAlone; // there are no meshes, and nothing was cleared
 
@@ -116,9 +112,6 @@ void writeSurface(ivec2 pixel, vec3 originEye, vec3 directionWorld, Seen seen) {
   imageStore(emission, pixel, vec4(attributes.emission, 0.0));
   imageStore(id, pixel, uvec4(packId(index, KIND_SDF)));
   imageStore(trace, pixel, uvec4(traceOfHit(level, seen.pointLevel, seen.steps, entry), 0u, 0u));
-#ifdef MOTION_ON
-  imageStore(motion, pixel, motionOfHit(index, level, seen.pointLevel, originEye + seen.t * directionWorld));
-#endif
 }
 
 void main() {

@@ -1,11 +1,13 @@
 // Temporal antialiasing: each frame samples another place of its pixels; what was seen there before is fetched along the
 // motion vectors, held to what the neighbours say now, and averaged in. Variance clipping after Salvi (2016), in YCoCg;
 // the nearest surface of 3x3 leads, so that moving edges stay smooth.
-#include "lib/motion_at.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/motion.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = kColorUnit) uniform sampler2D color;
+layout(binding = kMotionUnit) uniform sampler2D motion;
 layout(binding = kHistoryUnit) uniform sampler2D history;
 layout(binding = kHistoryDepthUnit) uniform sampler2D history_depth;
 layout(binding = 0, rgba16f) writeonly uniform image2D history_now;
@@ -76,7 +78,7 @@ void main() {
   vec3 own = texelFetch(color, pixel, 0).rgb;
   imageStore(depth_now, pixel, vec4(ownDepth));
 
-  vec3 moved = motionAt(leading), ownMoved = motionAt(pixel);
+  vec3 moved = texelFetch(motion, leading, 0).rgb, ownMoved = texelFetch(motion, pixel, 0).rgb;
   vec2 place = vec2(pixel) + 0.5 - moved.xy;
   bool isInside = all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, vec2(frame.size.xy)));
   float expected = ownDepth >= SKY_DEPTH ? SKY_DEPTH : ownDepth * ownMoved.z;

@@ -19,6 +19,14 @@ struct MeshDraw {
 };
 SHARED_ASSERT_SIZE(MeshDraw, 80)
 
+// Where a node's meshes were in the frame before.
+struct NodeMotion {
+  vec4 previousEyeFromEye[3]; // rows of the affine transform of points that move as the node does; both from the eye of
+                              // now
+  ivec4 isDrawn;              // x: 1 where no such transform is true of all that the node draws
+};
+SHARED_ASSERT_SIZE(NodeMotion, 64)
+
 // Where a draw was in the frame before.
 struct MeshMotion {
   mat4 previousWorldFromObject;

@@ -43,12 +43,16 @@ const char* resourceName(Resource resource) {
     return "occlusion";
   case Resource::Translucency:
     return "translucency";
+  case Resource::ReflectionList:
+    return "reflection_list";
   case Resource::ReflectionHit:
     return "reflection_hit";
   case Resource::Reflection:
     return "reflection";
   case Resource::Color:
     return "color";
+  case Resource::Motion:
+    return "motion";
   case Resource::History:
     return "history";
   case Resource::Picture:

@@ -29,9 +29,11 @@ enum class Resource : std::uint8_t {
   OcclusionTraced, ///< open shares of the hemisphere at fewer pixels
   Occlusion,       ///< at all of them
   Translucency,    ///< light through SDF objects, and their thickness
-  ReflectionHit,   ///< what reflected rays meet
+  ReflectionList,  ///< pixels whose reflected rays are traced
+  ReflectionHit,   ///< what these meet
   Reflection,      ///< how bright it is
   Color,
+  Motion,  ///< motion vectors
   History, ///< pictures and depths averaged over frames
   Picture,
   Counters,
@@ -44,7 +46,7 @@ enum class Resource : std::uint8_t {
   WorldFieldCoarse,  ///< unsigned, less the thickness
   WorldField,        ///< the volume that other passes read, and what it keeps from frame to frame
 };
-inline constexpr int kResourceCount = 33;
+inline constexpr int kResourceCount = 35;
 const char* resourceName(Resource resource);
 
 /// How the GPU touches it: decides the barrier after incoherent writes.

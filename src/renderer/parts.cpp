@@ -78,7 +78,7 @@ void Renderer::Parts::prepareTemporal() {
   if (!temporal) temporal = std::make_unique<Temporal>(*targets);
   temporal->sharpness = settings.taa.sharpness;
   temporal->shutter = settings.taa.shutter;
-  temporal->table.prepare(*scene);
+  temporal->table.prepare(*scene, view.eyeWorld);
   view.jitterNdc = 2.0f * taaJitter(temporal->frame) / glm::vec2(view.sizePixels);
 }
 
@@ -132,11 +132,14 @@ void Renderer::Parts::listPasses(const FrameShape& shape, const Take& take) {
   }
   if (shape.hasTranslucency) take(&Parts::translucency);
   if (shape.hasReflections) {
+    take(&Parts::reflectionPlaces); // which pixels trace
     take(&Parts::fieldReflection);
-    take(&Parts::reflectionShade); // by the shadows and the occlusion of what the picture shows
+    take(&Parts::reflectionShade);  // by the shadows and the occlusion of what the picture shows
+    take(&Parts::reflectionSpread); // over all pixels
   }
   take(&Parts::lighting); // also under a debug view: layers are whole whatever the picture shows
   if (shape.hasTaa) {
+    take(&Parts::motion);
     take(&Parts::taa);
     take(&Parts::taaSharpen);
   }

@@ -28,6 +28,7 @@
 #include "passes/light/shadow_range_pass.h"
 #include "passes/light/translucency_pass.h"
 #include "passes/post/motion_blur_pass.h"
+#include "passes/post/motion_pass.h"
 #include "passes/post/taa_pass.h"
 #include "passes/post/taa_sharpen_pass.h"
 #include "passes/post/temporal.h"
@@ -84,14 +85,17 @@ struct Renderer::Parts {
   LatePass<FieldOcclusionPass> fieldOcclusion;
   LatePass<OcclusionSpreadPass> occlusionSpread;
   LatePass<TranslucencyPass> translucency;
+  LatePass<ReflectionPlacesPass> reflectionPlaces;
   LatePass<FieldReflectionPass> fieldReflection;
   LatePass<ReflectionShadePass> reflectionShade;
+  LatePass<ReflectionSpreadPass> reflectionSpread;
   LatePass<FieldViewPass> fieldView;
   LatePass<ShadowMapPass> shadowMap;
   LatePass<ShadowMomentsPass> shadowMoments;
   LatePass<ShadowRangePass> shadowRange;
   LatePass<MapShadowPass> mapShadow;
   LatePass<ShadowMapViewPass> shadowMapView;
+  LatePass<MotionPass> motion;
   LatePass<TaaPass> taa;
   LatePass<TaaSharpenPass> taaSharpen;
   LatePass<MotionBlurPass> motionBlur;

@@ -18,25 +18,38 @@ class MotionTable {
 public:
   MotionTable();
 
-  /// Rows for a frame's draws and SDF instances. What was not there before has not moved.
-  void prepare(const ResidentScene& scene);
+  /// Rows for a frame's nodes, draws and SDF instances. What was not there before has not moved.
+  ///
+  /// eyeWorld  of this frame
+  void prepare(const ResidentScene& scene, glm::dvec3 eyeWorld);
   /// Keeps this frame as the one before the next. After its last pass and a barrier for buffer copies.
   void keep(const ResidentScene& scene);
 
-  /// For the vertex stage of meshes: rows, vertices of the frame before, vertices of this one.
+  /// Whether draws, in the order of their rows, must draw their motion themselves: what deforms does, and nodes that
+  /// stand in several places, or whose place no transform gives back.
+  bool isDrawn(std::uint32_t firstDraw, std::uint32_t drawCount) const;
+  bool isAnyDrawn() const { return isAnyDrawn_; }
+
+  /// For the vertex stage of those: rows, vertices of the frame before, vertices of this one.
   void bindMeshes(const ResidentScene& scene) const;
-  /// For the fragment stage of boxes.
-  void bindSdfInstances() const { sdfMotions_.bindStorage(shared::kPassBufferBBinding); }
-  std::size_t bytes() const { return meshMotions_.bytes() + sdfMotions_.bytes() + vertices_.bytes(); }
+  /// For all others: rows of nodes and of SDF instances.
+  void bindRows() const;
+  std::size_t bytes() const {
+    return nodeMotions_.bytes() + meshMotions_.bytes() + sdfMotions_.bytes() + vertices_.bytes();
+  }
 
 private:
   struct Place {
     glm::mat4 worldFromObject{1};
     int firstDeformed = -1; ///< in vertices_; -1: not deformed
   };
+  void prepareMeshes(const ResidentScene& scene, glm::dvec3 eyeWorld);
+
   std::map<std::pair<std::uint32_t, std::uint32_t>, Place> places_; // by number in the pose and primitive
   std::map<std::uint32_t, shared::SdfMotion> sdfPlaces_;            // by number in the pose
-  Buffer meshMotions_, sdfMotions_, vertices_;
+  std::vector<bool> isDrawn_;                                       // of each draw
+  bool isAnyDrawn_ = false;
+  Buffer nodeMotions_, meshMotions_, sdfMotions_, vertices_;
 };
 
 } // namespace brickfield

@@ -146,8 +146,9 @@ void ResidentScene::finishDraws(std::vector<PendingDraw>& pending) {
       batches_.push_back({draw.primitive, draw.baseVertex, static_cast<std::uint32_t>(rows.size()), 0, draw.mirrored});
     ++batches_.back().drawCount;
     rows.push_back(draw.row);
-    meshPlaces_.push_back({draw.instance, draw.primitiveIndex, draw.baseVertex, draw.primitive.firstVertex,
-                           draw.primitive.vertexCount, draw.row.worldFromObject});
+    meshPlaces_.push_back({draw.instance, static_cast<std::uint32_t>(draw.row.ids.x), draw.primitiveIndex,
+                           draw.baseVertex, draw.primitive.firstVertex, draw.primitive.vertexCount,
+                           draw.row.worldFromObject});
   }
   meshDrawCount_ = static_cast<std::uint32_t>(rows.size());
   renew(meshDraws_, "mesh_draws", rows);

@@ -42,6 +42,7 @@ struct DeformJob {
 /// Where a draw stands, in the order of the draws' rows.
 struct MeshPlace {
   std::uint32_t instance = 0; ///< number in Pose::instances
+  std::uint32_t node = 0;
   std::uint32_t primitive = 0;
   std::uint32_t baseVertex = 0;  ///< of what is drawn: deformed or not
   std::uint32_t firstVertex = 0; ///< undeformed

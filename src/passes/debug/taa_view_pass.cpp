@@ -13,6 +13,7 @@ PassDeclaration TaaViewPass::declare() {
   return {"taa_view",
           {{Resource::FrameParams, Access::Uniform},
            {Resource::GBuffer, Access::Sampled},
+           {Resource::Motion, Access::Sampled},
            {Resource::History, Access::Sampled}},
           {{Resource::Picture, Access::ImageStore}}};
 }

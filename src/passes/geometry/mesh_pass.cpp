@@ -7,12 +7,16 @@
 namespace brickfield {
 
 namespace {
+
+constexpr GLuint kTrace = 5, kMotion = 6; // layers of the G-buffer
+
 ProgramSource meshSource(const char* label, std::map<std::string, std::string> defines) {
   return {label,
           {{GL_VERTEX_SHADER, "passes/mesh.vert.glsl"}, {GL_FRAGMENT_SHADER, "passes/mesh.frag.glsl"}},
           std::move(defines),
           {}};
 }
+
 } // namespace
 
 MeshPass::Programs::Programs(ShaderLibrary& shaders, const char* label, const char* maskedLabel,
@@ -38,9 +42,14 @@ void MeshPass::draw(const FrameContext& context, const DrawRun& run) {
   const MeshBatch& batch = context.scene.batches()[run.batch];
   const MaterialTable& materials = context.scene.materials();
   const int material = batch.primitive.material;
-  const Programs& programs = context.temporal ? moving_ : still_;
+  const bool drawsMotion = context.temporal && context.temporal->table.isDrawn(run.firstDraw, run.drawCount);
+  const Programs& programs = drawsMotion ? moving_ : still_;
   const Program* program = (materials.isMasked(material) ? programs.masked : programs.opaque).get();
-  if (program != used_) program->use(), used_ = program;
+  if (program != used_) {
+    program->use(), used_ = program;
+    const GLboolean isWritten = drawsMotion ? GL_TRUE : GL_FALSE;
+    if (hasMotion_) glColorMaski(kMotion, isWritten, isWritten, isWritten, isWritten);
+  }
   if (material != boundMaterial_) {
     materials.bindTextures(boundMaterial_ = material);
     if (materials.isDoubleSided(material))
@@ -60,8 +69,9 @@ void MeshPass::record(const FrameContext& context) {
   const std::span<const DrawRun> runs = context.meshRuns;
   if (runs.empty()) return;
   const bool reversed = context.drawOrder == DrawOrder::BoxesFirstAllReversed;
-  (context.temporal ? context.temporal->gbuffer : context.targets.gbuffer).bind();
-  if (context.temporal) context.temporal->table.bindMeshes(context.scene);
+  hasMotion_ = context.temporal && context.temporal->table.isAnyDrawn();
+  (hasMotion_ ? context.temporal->gbuffer : context.targets.gbuffer).bind();
+  if (hasMotion_) context.temporal->table.bindMeshes(context.scene);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glDepthFunc(reversed ? GL_GEQUAL : GL_GREATER);
@@ -70,12 +80,11 @@ void MeshPass::record(const FrameContext& context) {
   context.scene.bindMeshDraws();
   context.scene.materials().bindRows();
   // Steps of rays are SDF objects' alone: what is not written costs no bandwidth.
-  constexpr GLuint kTrace = 5;
   glColorMaski(kTrace, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   boundMaterial_ = kNoMaterial;
   used_ = nullptr;
   for (std::size_t i = 0; i < runs.size(); ++i) draw(context, runs[reversed ? runs.size() - 1 - i : i]);
-  glColorMaski(kTrace, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  for (const GLuint layer : {kTrace, kMotion}) glColorMaski(layer, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glFrontFace(GL_CCW);
   glDisable(GL_CULL_FACE);
   for (GLuint unit = 0; unit < shared::MATERIAL_TEXTURES; ++unit) Sampler::unbind(shared::kMaterialTextureUnit + unit);

@@ -29,6 +29,7 @@ private:
   static constexpr int kNoMaterial = -2;
   int boundMaterial_ = kNoMaterial; ///< of this record, as the next
   const Program* used_ = nullptr;
+  bool hasMotion_ = false; ///< something draws motion vectors
 };
 
 /// Empties the G-buffer: far depth, no object.

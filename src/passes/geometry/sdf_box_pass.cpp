@@ -1,8 +1,6 @@
 // The two commands differ in vertex count and place in the list; the list's entry tells the vertex shader which faces.
 #include "passes/geometry/sdf_box_pass.h"
 
-#include "passes/post/temporal.h"
-
 namespace brickfield {
 
 namespace {
@@ -16,10 +14,7 @@ ProgramSource boxSource(const char* label, std::map<std::string, std::string> de
 
 SdfBoxPass::SdfBoxPass(ShaderLibrary& shaders)
     : program_(shaders.load(boxSource("sdf_box", {}))),
-      countingProgram_(shaders.load(boxSource("sdf_box_counting", {{"COUNTERS_ON", "1"}}))),
-      motionProgram_(shaders.load(boxSource("sdf_box_motion", {{"MOTION_ON", "1"}}))),
-      countingMotionProgram_(
-          shaders.load(boxSource("sdf_box_motion_counting", {{"COUNTERS_ON", "1"}, {"MOTION_ON", "1"}}))) {}
+      countingProgram_(shaders.load(boxSource("sdf_box_counting", {{"COUNTERS_ON", "1"}}))) {}
 
 PassDeclaration SdfBoxPass::declare() {
   return {"sdf_box",
@@ -35,7 +30,7 @@ PassDeclaration SdfBoxPass::declare() {
 
 void SdfBoxPass::record(const FrameContext& context) {
   if (context.scene.sdfInstanceCount() == 0) return;
-  (context.temporal ? context.temporal->gbuffer : context.targets.gbuffer).bind();
+  context.targets.gbuffer.bind();
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glDepthFunc(context.drawOrder == DrawOrder::BoxesFirstAllReversed ? GL_GEQUAL : GL_GREATER);
@@ -43,12 +38,7 @@ void SdfBoxPass::record(const FrameContext& context) {
   context.scene.atlas().bind();
   context.targets.depthMesh.bind(shared::kDepthMeshUnit);
   if (context.countersOn) context.counters.bindStorage(shared::kPassBufferABinding);
-  if (context.temporal) {
-    context.temporal->table.bindSdfInstances();
-    (context.countersOn ? countingMotionProgram_ : motionProgram_)->use();
-  } else {
-    (context.countersOn ? countingProgram_ : program_)->use();
-  }
+  (context.countersOn ? countingProgram_ : program_)->use();
   context.scene.bindSdfInstances();
   context.visible.draw();
 }

@@ -16,7 +16,6 @@ public:
 private:
   std::shared_ptr<Program> program_;
   std::shared_ptr<Program> countingProgram_; ///< the same with counters, which cost early rejection
-  std::shared_ptr<Program> motionProgram_, countingMotionProgram_; ///< both with motion vectors
 };
 
 } // namespace brickfield

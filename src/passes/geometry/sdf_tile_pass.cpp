@@ -1,7 +1,5 @@
-// Images of eight layers are what OpenGL 4.5 promises to a compute shader; motion vectors take the last of them.
+// Images of eight layers are what OpenGL 4.5 promises to a compute shader; the G-buffer and its depth take seven.
 #include "passes/geometry/sdf_tile_pass.h"
-
-#include "passes/post/temporal.h"
 
 namespace brickfield {
 
@@ -35,10 +33,7 @@ void ScreenBoxPass::record(const FrameContext& context) {
 
 SdfTilePass::SdfTilePass(ShaderLibrary& shaders)
     : program_(shaders.load(tileSource("sdf_tiles", {}))),
-      countingProgram_(shaders.load(tileSource("sdf_tiles_counting", {{"COUNTERS_ON", "1"}}))),
-      motionProgram_(shaders.load(tileSource("sdf_tiles_motion", {{"MOTION_ON", "1"}}))),
-      countingMotionProgram_(
-          shaders.load(tileSource("sdf_tiles_motion_counting", {{"COUNTERS_ON", "1"}, {"MOTION_ON", "1"}}))) {}
+      countingProgram_(shaders.load(tileSource("sdf_tiles_counting", {{"COUNTERS_ON", "1"}}))) {}
 
 PassDeclaration SdfTilePass::declare() {
   return {"sdf_tiles",
@@ -62,13 +57,8 @@ void SdfTilePass::record(const FrameContext& context) {
   targets.depth.bind(shared::kDepthMeshUnit);
   context.visible.screenBoxes().bindStorage(shared::kScreenBoxBinding);
   if (context.countersOn) context.counters.bindStorage(shared::kPassBufferABinding);
-  if (context.temporal) {
-    context.temporal->motion.bindImage(unit, 0, GL_WRITE_ONLY);
-    context.temporal->table.bindSdfInstances();
-  }
   context.scene.bindSdfInstances();
-  const auto& program = context.temporal ? (context.countersOn ? countingMotionProgram_ : motionProgram_)
-                                         : (context.countersOn ? countingProgram_ : program_);
+  const auto& program = context.countersOn ? countingProgram_ : program_;
   program->set("isAlone", context.meshRuns.empty());
   program->dispatchOver({targets.size.x, targets.size.y, 1});
 }

@@ -27,7 +27,6 @@ public:
 
 private:
   std::shared_ptr<Program> program_, countingProgram_;
-  std::shared_ptr<Program> motionProgram_, countingMotionProgram_; ///< with motion vectors
 };
 
 } // namespace brickfield

@@ -39,7 +39,7 @@ void LightingPass::record(const FrameContext& context) {
   const bool isMirrored = context.reflections.method != ReflectionMethod::Off;
   if (isMirrored) context.targets.reflection.bind(shared::kReflectionUnit);
   program_->set("isMirrored", isMirrored);
-  program_->set("mirrorScale", context.reflections.scale);
+  program_->set("scale", context.reflections.scale);
   program_->set("isBlinnPhong", context.brdf == BrdfModel::BlinnPhong);
   context.targets.color.bindImage(0, 0, GL_WRITE_ONLY);
   program_->dispatchOver({context.targets.color.width(), context.targets.color.height(), 1});

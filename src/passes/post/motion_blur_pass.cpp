@@ -19,6 +19,7 @@ PassDeclaration MotionBlurPass::declare() {
           {{Resource::FrameParams, Access::Uniform},
            {Resource::Depth, Access::Sampled},
            {Resource::GBuffer, Access::Sampled},
+           {Resource::Motion, Access::Sampled},
            {Resource::Color, Access::Sampled}},
           {{Resource::History, Access::ImageStore}, {Resource::Color, Access::Attachment}}};
 }

@@ -14,6 +14,7 @@ PassDeclaration TaaPass::declare() {
           {{Resource::FrameParams, Access::Uniform},
            {Resource::Depth, Access::Sampled},
            {Resource::GBuffer, Access::Sampled},
+           {Resource::Motion, Access::Sampled},
            {Resource::Color, Access::Sampled}},
           {{Resource::History, Access::ImageStore}}};
 }
