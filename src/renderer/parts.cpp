@@ -27,6 +27,7 @@ Renderer::Parts::Parts(const ContextInfo& info)
     : shaders(findShaderRoot()),
       timers(info),
       deform(shaders),
+      clear(shaders),
       mesh(shaders),
       sdfCull(shaders),
       sdfBox(shaders),

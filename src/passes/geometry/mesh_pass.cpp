@@ -90,20 +90,24 @@ void MeshPass::record(const FrameContext& context) {
   for (GLuint unit = 0; unit < shared::MATERIAL_TEXTURES; ++unit) Sampler::unbind(shared::kMaterialTextureUnit + unit);
 }
 
+ClearPass::ClearPass(ShaderLibrary& shaders)
+    : program_(shaders.load({"clear", {{GL_COMPUTE_SHADER, "passes/clear.comp.glsl"}}, {}, {}})) {}
+
 PassDeclaration ClearPass::declare() {
   return {"clear",
           {},
-          {{Resource::GBuffer, Access::Attachment},
+          {{Resource::GBuffer, Access::ImageStore},
            {Resource::Depth, Access::Attachment},
            {Resource::DepthMesh, Access::Attachment}}};
 }
 
-// Layers hold whatever they did where the id says that nothing is there.
+// Layers hold whatever they did where the id says that nothing is there. Ids are cleared in compute: where few units
+// rasterize, as on an H200, clearing a target takes as long as filling it (0.15 ms of a picture of 1920x1080).
 void ClearPass::record(const FrameContext& context) {
-  constexpr int kId = 4;
   FrameTargets& targets = context.targets;
   targets.gbuffer.clearDepth(0.0f);
-  targets.gbuffer.clearColor(kId, glm::uvec4(0));
+  targets.id.bindImage(0, 0, GL_WRITE_ONLY);
+  program_->dispatchOver({targets.size.x, targets.size.y, 1});
   if (context.drawOrder == DrawOrder::BoxesFirstAllReversed) targets.depthMesh.clear(glm::vec4(0)); // else it is copied
 }
 

@@ -35,8 +35,12 @@ private:
 /// Empties the G-buffer: far depth, no object.
 class ClearPass {
 public:
+  explicit ClearPass(ShaderLibrary& shaders);
   static PassDeclaration declare();
   void record(const FrameContext& context);
+
+private:
+  std::shared_ptr<Program> program_;
 };
 
 /// Copies the depth of what has been drawn for the rays of SDF objects to end at.

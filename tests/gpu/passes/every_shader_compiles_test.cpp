@@ -40,6 +40,7 @@ std::vector<ProgramSource> tableOfPrograms() {
     return ProgramSource{label, {{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}, std::move(defines), {}};
   };
   std::vector<ProgramSource> table{
+      compute("clear", "passes/clear.comp.glsl"),
       compute("deform", "passes/deform.comp.glsl"),
       compute("sdf_cull", "passes/sdf_cull.comp.glsl"),
       compute("sdf_screen_boxes", "passes/sdf_screen_boxes.comp.glsl"),
