@@ -3,7 +3,7 @@
 
 struct BrickAttributes {
   vec4 colorAndCoverage; // linear
-  vec4 material;         // metallic, roughness, occlusion; a: over one half where unlit (card_crossing.glsl)
+  vec4 material;         // metallic, roughness, occlusion; a: filtered codes of unlit and of cards, see isUnlit
   vec3 emission;
 };
 
@@ -26,6 +26,21 @@ bool readAttributes(SdfLevel level, vec3 pointLevel, out BrickAttributes found) 
   if (!findAttributes(level, pointLevel, uvw)) return false;
   found = BrickAttributes(textureLod(brick_base_color, uvw, 0.0), textureLod(brick_material, uvw, 0.0), textureLod(brick_emission, uvw, 0.0).rgb);
   return true;
+}
+
+// Whether most of the samples around a point are unlit. Cards keep their axes in the same byte, from one half on where they
+// are unlit (card_crossing.glsl), so that filtered bytes say it only where all are 0 or all are 1.
+bool isUnlit(SdfLevel level, vec3 pointLevel, BrickAttributes attributes) {
+  vec3 uvw;
+  if (attributes.material.a <= 0.0 || attributes.material.a >= 1.0 || !findAttributes(level, pointLevel, uvw)) return attributes.material.a > 0.5;
+  vec3 texel = uvw * vec3(textureSize(brick_material, 0)) - 0.5, part = fract(texel);
+  float share = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2);
+    vec3 weights = mix(1.0 - part, part, vec3(corner));
+    if (texelFetch(brick_material, ivec3(floor(texel)) + corner, 0).a > 0.5) share += weights.x * weights.y * weights.z;
+  }
+  return share > 0.5;
 }
 
 // 0 where none is stored.

@@ -72,7 +72,7 @@ MirroredSurface surfaceSeen(ReflectionHit hit, float width) {
 }
 
 // Attributes of an object's bricks at a point; false: it has none, or is elsewhere.
-bool readNode(uint node, vec3 pointEye, out BrickAttributes found) {
+bool readNode(uint node, vec3 pointEye, out BrickAttributes found, out bool isUnlitThere) {
   uint rows = nodeRows[node - 1u], first = rows & 0xffffffu;
   if (rows == NO_BRICKS) return false;
   uint end = min(first + min(rows >> 24, uint(MOST_ROWS)), frame.counts.x); // behind the objects lie bricks for light
@@ -81,7 +81,9 @@ bool readNode(uint node, vec3 pointEye, out BrickAttributes found) {
     vec3 pointGrid = gridFromEye(instance, pointEye);
     if (any(lessThan(pointGrid, instance.boxMin.xyz - 2.0)) || any(greaterThan(pointGrid, instance.boxMax.xyz + 2.0))) continue;
     SdfLevel level = sdfLevels[instance.ids.y];
-    if (readAttributes(level, pointGrid * level.scale.x, found)) return true;
+    if (!readAttributes(level, pointGrid * level.scale.x, found)) continue;
+    isUnlitThere = isUnlit(level, pointGrid * level.scale.x, found);
+    return true;
   }
   return false;
 }
@@ -90,11 +92,10 @@ MirroredSurface surfaceOfNode(ReflectionHit hit, vec3 pointEye) {
   MirroredSurface found = MirroredSurface(Surface(vec3(0.5), 0.0, 1.0, 0.0), pointEye, hit.normal, vec3(0.0), hit.visible, 1.0, false);
   if (hit.node == 0u) return found;
   BrickAttributes attributes;
-  if (readNode(hit.node, pointEye, attributes)) {
+  if (readNode(hit.node, pointEye, attributes, found.isUnlit)) {
     found.surface = Surface(attributes.colorAndCoverage.rgb, attributes.material.r, attributes.material.g, 0.0);
     found.emission = attributes.emission;
     found.open = attributes.material.b;
-    found.isUnlit = attributes.material.a > 0.5;
   } else {
     NodeLook look = nodeLooks[hit.node - 1u];
     found.surface = Surface(look.baseColor.rgb, look.baseColor.w, look.emission.w, 0.0);

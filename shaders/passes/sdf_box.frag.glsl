@@ -62,7 +62,7 @@ void main() {
   vec2 normalOct = octahedralFromDirection(normalOfHit(instance, level, hit.pointLevel, hit.backFace, directionWorld));
   normal_world_oct = vec4(normalOct, normalOct);
   albedo = vec4(attributes.colorAndCoverage.rgb, 1.0);
-  material = attributes.material;
+  material = vec4(attributes.material.rgb, isUnlit(level, hit.pointLevel, attributes));
   emission = attributes.emission;
   id = packId(entry & VISIBLE_INDEX_MASK, KIND_SDF);
   trace = traceOfHit(level, hit.pointLevel, hit.steps, entry);

@@ -108,7 +108,7 @@ void writeSurface(ivec2 pixel, vec3 originEye, vec3 directionWorld, Seen seen) {
   readAttributes(level, seen.pointLevel, attributes);
   imageStore(normal_world_oct, pixel, vec4(normalOct, normalOct));
   imageStore(albedo_srgb, pixel, vec4(srgbFromLinear(attributes.colorAndCoverage.rgb), 1.0));
-  imageStore(material, pixel, attributes.material);
+  imageStore(material, pixel, vec4(attributes.material.rgb, isUnlit(level, seen.pointLevel, attributes)));
   imageStore(emission, pixel, vec4(attributes.emission, 0.0));
   imageStore(id, pixel, uvec4(packId(index, KIND_SDF)));
   imageStore(trace, pixel, uvec4(traceOfHit(level, seen.pointLevel, seen.steps, entry), 0u, 0u));
