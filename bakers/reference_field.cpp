@@ -26,7 +26,7 @@ void boundsOf(const RTCBoundsFunctionArguments* arguments) {
 }
 
 /// Where the surface is cut away (masks, backs of single-sided sheets) a ray goes on behind it, as in
-/// shaders/passes/sdf_box.frag.glsl.
+/// shaders/lib/sdf_hit.glsl.
 std::optional<float> meetField(const BrickField& field, const RTCRay& ray) {
   const glm::vec3 origin(ray.org_x, ray.org_y, ray.org_z), direction(ray.dir_x, ray.dir_y, ray.dir_z);
   float from = ray.tnear;

@@ -22,7 +22,7 @@ MirroredDirection sampleMirrored(const SurfaceBrdf& brdf, glm::vec3 normal, glm:
   const float vDotH = std::max(glm::dot(viewer, halfway), 0.0f);
   const glm::vec3 mirrored = 2.0f * vDotH * halfway - viewer;
   if (mirrored.z <= 0.0f) return {};
-  const glm::vec3 weight = fresnelSchlick(brdf.f0, vDotH) * unhiddenShare(brdf.alpha, viewer.z, mirrored.z);
+  const glm::vec3 weight = fresnelSchlick(brdf.f0, vDotH) * smithShadowing(brdf.alpha, viewer.z, mirrored.z);
   return {glm::normalize(worldFromLobe * mirrored), weight};
 }
 

@@ -11,12 +11,12 @@ vec3 visibleNormal(float alpha, vec3 viewer, vec2 square) {
 }
 
 // Smith's lambda: how much of a rough surface hides behind itself.
-float hiddenOf(float alpha, float cosine) {
+float smithLambda(float alpha, float cosine) {
   float square = cosine * cosine;
   return 0.5 * (sqrt(1.0 + alpha * alpha * (1.0 - square) / square) - 1.0);
 }
 
-float unhiddenShare(float alpha, float nDotV, float nDotL) {
-  float ofViewer = 1.0 + hiddenOf(alpha, nDotV);
-  return ofViewer / (ofViewer + hiddenOf(alpha, nDotL));
+float smithShadowing(float alpha, float nDotV, float nDotL) {
+  float ofViewer = 1.0 + smithLambda(alpha, nDotV);
+  return ofViewer / (ofViewer + smithLambda(alpha, nDotL));
 }

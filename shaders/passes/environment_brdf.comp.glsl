@@ -20,7 +20,7 @@ void main() {
     vec3 h = visibleNormal(alpha, v, hammersley(i, kSamples));
     float vDotH = max(dot(v, h), 0.0), nDotL = 2.0 * vDotH * h.z - nDotV;
     if (nDotL <= 0.0) continue;
-    float share = unhiddenShare(alpha, nDotV, nDotL), fresnel = pow(1.0 - vDotH, 5.0);
+    float share = smithShadowing(alpha, nDotV, nDotL), fresnel = pow(1.0 - vDotH, 5.0);
     sum += vec2(1.0 - fresnel, fresnel) * share;
   }
   imageStore(environment_brdf, texel, vec4(sum / float(kSamples), 0.0, 0.0));

@@ -128,8 +128,8 @@ void addTraceOptions(CLI::App& command, ReferenceOptions& options) {
            })
       ->type_name("WHAT");
   addValue(command, "--samples",
-           "Of a pixel, of each light and of the hemisphere, 1 to 65536; absent: 16, or 1 where --shadows is none or "
-           "hard and nothing is soft; 1 goes through the pixel's centre",
+           "Of a pixel, of each light, of the hemisphere and of lobes, 1 to 65536; absent: 16, or 1 where --shadows is "
+           "none or hard and neither --ao nor --reflections asks for more; 1 goes through the pixel's centre",
            [&](auto& flag, auto& text) { options.samples = static_cast<int>(parseWhole(flag, text, 1, 65536)); })
       ->type_name("N");
 }

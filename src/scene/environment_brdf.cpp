@@ -29,7 +29,7 @@ glm::vec2 integrate(float roughness, float nDotV) {
       const float vDotH = std::max(glm::dot(viewer, halfway), 0.0f);
       const float nDotL = 2.0f * vDotH * halfway.z - nDotV;
       if (nDotL <= 0.0f) continue;
-      const double weight = unhiddenShare(alpha, nDotV, nDotL), fresnel = fresnelSchlick(glm::vec3(0.0f), vDotH).x;
+      const double weight = smithShadowing(alpha, nDotV, nDotL), fresnel = fresnelSchlick(glm::vec3(0.0f), vDotH).x;
       sum += weight * glm::dvec2(1.0 - fresnel, fresnel);
     }
   return glm::vec2(sum / static_cast<double>(kRadialSteps * kAzimuthSteps));

@@ -10,7 +10,7 @@ namespace brickfield {
 namespace {
 
 /// Smith's lambda: how much of a rough surface hides behind itself.
-float hiddenOf(float alpha, float cosine) {
+float smithLambda(float alpha, float cosine) {
   const float square = cosine * cosine;
   return 0.5f * (std::sqrt(1.0f + alpha * alpha * (1.0f - square) / square) - 1.0f);
 }
@@ -29,9 +29,9 @@ glm::vec3 visibleNormal(float alpha, glm::vec3 viewer, glm::vec2 square) {
   return glm::normalize(glm::vec3(alpha * onSphere.x, alpha * onSphere.y, std::max(0.0f, onSphere.z)));
 }
 
-float unhiddenShare(float alpha, float nDotV, float nDotL) {
-  const float ofViewer = 1.0f + hiddenOf(alpha, nDotV);
-  return ofViewer / (ofViewer + hiddenOf(alpha, nDotL));
+float smithShadowing(float alpha, float nDotV, float nDotL) {
+  const float ofViewer = 1.0f + smithLambda(alpha, nDotV);
+  return ofViewer / (ofViewer + smithLambda(alpha, nDotL));
 }
 
 } // namespace brickfield

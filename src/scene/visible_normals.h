@@ -14,9 +14,9 @@ namespace brickfield {
 glm::vec3 visibleNormal(float alpha, glm::vec3 viewer, glm::vec2 square);
 
 /// Of what the viewer's normals send back to a direction, the share that the surface does not hide on its way: Smith's,
-/// height-correlated (Heitz 2014). Times Fresnel's it is the weight of a sample by visibleNormal.
+/// height-correlated, G2/G1 (Heitz 2014). Times Fresnel's it is the weight of a sample by visibleNormal.
 ///
 /// nDotV, nDotL  above 0
-float unhiddenShare(float alpha, float nDotV, float nDotL);
+float smithShadowing(float alpha, float nDotV, float nDotL);
 
 } // namespace brickfield

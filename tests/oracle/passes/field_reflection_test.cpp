@@ -256,6 +256,7 @@ TEST_F(FieldReflection, LobesAreAsWideAsSurfacesAreRough) {
                  scale, mean, bias, partly);
       EXPECT_GT(partly, 100u);
       EXPECT_LE(mean, 0.1);
+      EXPECT_LE(std::abs(bias), 0.08);
     }
   }
 }

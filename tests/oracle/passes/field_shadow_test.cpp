@@ -218,6 +218,8 @@ TEST_F(FieldShadow, GapsUnderBallsAreLitAsFarAsTheSunReaches) {
     }
     std::printf("under a ball, sun at %g degrees: %zu of %zu dark, %zu of %zu leaking\n", degrees, dark, free, leaking,
                 covered);
+    ASSERT_GT(free, 200u) << degrees;
+    ASSERT_GT(covered, 200u) << degrees;
     EXPECT_LE(dark, degrees < 30 ? free / 9 : free / 50) << degrees;
     EXPECT_LE(leaking, covered / 50) << degrees;
   }
