@@ -1,5 +1,5 @@
 // A part is a connected piece of one instance. Whether it is closed, and which way it faces, is found anew here with
-// maps of rest positions, slowly and plainly.
+// maps of rest positions, slowly and plainly; the caps of small holes are those of scene/surface_topology.h.
 #include "bakers/field_truth.h"
 
 #include <array>
@@ -10,6 +10,7 @@
 
 #include "bakers/mesh_distance.h"
 #include "bakers/winding_number.h"
+#include "scene/surface_topology.h"
 
 namespace brickfield {
 
@@ -26,17 +27,24 @@ struct InstanceTriangles {
 InstanceTriangles placeTriangles(const Scene& scene, const PosedInstance& instance) {
   InstanceTriangles result;
   std::map<std::array<float, 3>, int> numbers;
-  for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
+  const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+  const std::vector<SurfaceTopology::Cap> caps = analyseSurface(mesh).caps;
+  for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+    const Primitive& primitive = mesh.primitives[p];
     const std::vector<glm::vec3> deformed = deformPrimitive(primitive, instance).positions;
-    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+    std::vector<std::uint32_t> indices = primitive.indices;
+    for (const SurfaceTopology::Cap& cap : caps)
+      if (cap.primitive == p) indices.insert(indices.end(), cap.vertices.begin(), cap.vertices.end());
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
       Corners rest, world;
       std::array<int, 3> vertices{};
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t v = primitive.indices[i + k];
-        const glm::vec3 p = primitive.positions[v];
-        rest[k] = p;
+        const std::uint32_t v = indices[i + k];
+        const glm::vec3 place = primitive.positions[v];
+        rest[k] = place;
         world[k] = glm::dmat4(instance.worldFromObject) * glm::dvec4(glm::dvec3(deformed[v]), 1.0);
-        vertices[k] = numbers.try_emplace({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}, numbers.size()).first->second;
+        vertices[k] =
+            numbers.try_emplace({place.x + 0.0f, place.y + 0.0f, place.z + 0.0f}, numbers.size()).first->second;
       }
       result.rest.push_back(rest), result.world.push_back(world), result.vertices.push_back(vertices);
     }

@@ -54,8 +54,8 @@ std::vector<std::string> addShadowBricks(const Scene& scene, const Pose& pose, c
     bake.resolution = static_cast<int>(
         std::clamp(std::ceil(side / voxel), static_cast<float>(kLeastVoxels), static_cast<float>(mostVoxels)));
     bake.attributes = false;
-    // As the world field does: what is not closed is a sheet, however nearly it closes, for a shelf's front must stay
-    // open and a room's walls have the light on their inside.
+    // As the world field does: what has more than small holes is a sheet, however nearly it closes, for a shelf's front
+    // must stay open and a room's walls have the light on their inside.
     if (!isClosed(mesh)) bake.sign = SignMethod::TwoSided;
     bake.memoryBytes = request.memoryBytes;
     bake.threads = request.threads;

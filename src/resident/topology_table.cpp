@@ -14,6 +14,15 @@ static_assert(SurfaceTopology::kNone == shared::NO_NEIGHBOUR);
 // Fan corners number a triangle and its corner in 32 bits, with a bit to spare.
 constexpr std::size_t kMostRows = std::size_t{1} << 28;
 
+void appendRow(const SurfaceTopology& topology, std::size_t triangle, std::uint32_t firstVertex,
+               const std::uint32_t* vertices, std::vector<shared::TopologyRow>& rows) {
+  const std::uint32_t flags = (topology.isDegenerate[triangle] ? shared::WORLD_TRIANGLE_EMPTY : 0u) |
+                              (topology.isClosed(triangle) ? shared::WORLD_TRIANGLE_CLOSED : 0u);
+  const auto& beyond = topology.neighbours[triangle];
+  rows.push_back({{firstVertex + vertices[0], firstVertex + vertices[1], firstVertex + vertices[2], flags},
+                  {beyond[0], beyond[1], beyond[2], 0}});
+}
+
 void appendRows(const Scene& scene, const MeshPool& pool, int mesh, const SurfaceTopology& topology,
                 std::vector<shared::TopologyRow>& rows) {
   const auto& primitives = scene.meshes[static_cast<std::size_t>(mesh)].primitives;
@@ -21,14 +30,11 @@ void appendRows(const Scene& scene, const MeshPool& pool, int mesh, const Surfac
   for (std::size_t p = 0; p < primitives.size(); ++p) {
     const std::uint32_t firstVertex = pool.primitive(mesh, p).firstVertex;
     const std::vector<std::uint32_t>& indices = primitives[p].indices;
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3, ++triangle) {
-      const std::uint32_t flags = (topology.isDegenerate[triangle] ? shared::WORLD_TRIANGLE_EMPTY : 0u) |
-                                  (topology.isClosed(triangle) ? shared::WORLD_TRIANGLE_CLOSED : 0u);
-      const auto& beyond = topology.neighbours[triangle];
-      rows.push_back({{firstVertex + indices[i], firstVertex + indices[i + 1], firstVertex + indices[i + 2], flags},
-                      {beyond[0], beyond[1], beyond[2], 0}});
-    }
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3, ++triangle)
+      appendRow(topology, triangle, firstVertex, &indices[i], rows);
   }
+  for (const SurfaceTopology::Cap& cap : topology.caps)
+    appendRow(topology, triangle++, pool.primitive(mesh, cap.primitive).firstVertex, cap.vertices.data(), rows);
 }
 
 // Of closed surfaces alone: sheets have no sides, so nobody asks for their pseudonormals. A fan's triangles hang
@@ -60,7 +66,9 @@ TopologyTable::TopologyTable(const Scene& scene, const MeshPool& pool, const std
     if (rows.size() + topology.triangleCount() > kMostRows)
       throw Failure("world field: the scene's meshes have more than 2^28 triangles");
     meshes_[m] = {static_cast<std::uint32_t>(rows.size()), static_cast<std::uint32_t>(topology.triangleCount()),
-                  static_cast<std::uint32_t>(starts.size()), 0};
+                  static_cast<std::uint32_t>(starts.size()), 0,
+                  std::vector<std::uint32_t>(scene.meshes[m].primitives.size(), 0)};
+    for (const SurfaceTopology::Cap& cap : topology.caps) ++meshes_[m].capsOfPrimitive[cap.primitive];
     meshes_[m].vertexCount = appendClosedFans(topology, starts, corners);
     appendRows(scene, pool, static_cast<int>(m), topology, rows);
   }

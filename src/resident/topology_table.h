@@ -14,9 +14,10 @@ class TopologyTable {
 public:
   struct MeshRows {
     std::uint32_t firstTriangle = 0; ///< row in triangles()
-    std::uint32_t triangleCount = 0;
-    std::uint32_t firstFan = 0; ///< row in fanStarts(): as many as vertices and one more
+    std::uint32_t triangleCount = 0; ///< with caps, which come last
+    std::uint32_t firstFan = 0;      ///< row in fanStarts(): as many as vertices and one more
     std::uint32_t vertexCount = 0;
+    std::vector<std::uint32_t> capsOfPrimitive;
   };
 
   /// isUsed  for each mesh whether it gets rows

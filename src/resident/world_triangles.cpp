@@ -129,7 +129,9 @@ void WorldTriangles::listChunks(const Scene& scene) {
   for (const MovedInstance& moved : moved_) {
     const auto posed = static_cast<std::uint32_t>(posed_[moved.instance]);
     const int mesh = placements_[moved.instance].mesh;
-    std::uint32_t triangle = 0;
+    const TopologyTable::MeshRows& rows = topology_.mesh(mesh);
+    std::uint32_t triangle = 0, cap = rows.triangleCount;
+    for (const std::uint32_t caps : rows.capsOfPrimitive) cap -= caps;
     for (std::uint32_t p = 0; p < scene.meshes[static_cast<std::size_t>(mesh)].primitives.size(); ++p) {
       const PooledPrimitive& primitive = resident_->meshes().primitive(mesh, p);
       while (job < jobs.size() && std::pair(jobs[job].instance, jobs[job].primitive) < std::pair(posed, p)) ++job;
@@ -137,6 +139,8 @@ void WorldTriangles::listChunks(const Scene& scene) {
       const std::uint32_t offset = isDeformed ? jobs[job].params.vertices.z - primitive.firstVertex : 0;
       appendChunks(moved.instance, triangle, primitive.indexCount / 3, offset, chunks);
       triangle += primitive.indexCount / 3;
+      appendChunks(moved.instance, cap, rows.capsOfPrimitive[p], offset, chunks);
+      cap += rows.capsOfPrimitive[p];
     }
   }
   triangleChunks_ = static_cast<std::uint32_t>(chunks.size());

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/hash.h"
+#include "scene/hole_caps.h"
 
 namespace brickfield {
 
@@ -42,6 +43,7 @@ public:
 
   std::size_t vertexCount() const { return primitiveOf_.size(); }
   std::uint32_t firstVertex(std::size_t primitive) const { return firstVertices_[primitive]; }
+  std::uint32_t primitiveOf(std::uint32_t vertex) const { return primitiveOf_[vertex]; }
 
   void keyOf(std::uint32_t vertex, std::vector<std::uint32_t>& key) const {
     const std::uint32_t p = primitiveOf_[vertex];
@@ -133,10 +135,15 @@ std::vector<EdgeUse> sortedEdges(const SurfaceTopology& topology, std::size_t ve
   return uses;
 }
 
-/// Connects the triangles and the corners that edges connect; returns for each triangle whether all its edges are fine.
-std::vector<bool> walkEdges(SurfaceTopology& topology, std::size_t vertexCount, UnionFind& components,
-                            UnionFind& corners) {
-  std::vector<bool> isFine(topology.triangleCount(), true);
+struct OddEdge {
+  EdgeUse use;
+  bool isRim; ///< nobody else uses it
+};
+
+/// Connects the triangles and the corners that edges connect; returns the uses of edges that are not fine.
+std::vector<OddEdge> walkEdges(SurfaceTopology& topology, std::size_t vertexCount, UnionFind& components,
+                               UnionFind& corners) {
+  std::vector<OddEdge> odd;
   const std::vector<EdgeUse> uses = sortedEdges(topology, vertexCount);
   // The corner of a use at the edge's lower or higher end.
   const auto cornerAt = [](const EdgeUse& use, bool lower) {
@@ -153,10 +160,10 @@ std::vector<bool> walkEdges(SurfaceTopology& topology, std::size_t vertexCount, 
       topology.neighbours[first.triangle][first.edge] = last.triangle;
       topology.neighbours[last.triangle][last.edge] = first.triangle;
     } else {
-      for (std::size_t i = begin; i < end; ++i) isFine[uses[i].triangle] = false;
+      for (std::size_t i = begin; i < end; ++i) odd.push_back({uses[i], end - begin == 1});
     }
   }
-  return isFine;
+  return odd;
 }
 
 /// Numbers vertices by the fans of corners, in the order of their first corners, and lists the fans.
@@ -181,7 +188,7 @@ void makeFans(SurfaceTopology& topology, UnionFind& corners) {
 
 /// Volume, area and size of a component, to tell solids from sheets whose two sides are one.
 struct Measure {
-  bool isFine = true;
+  bool isFine = true, isCappable = true;
   glm::dvec3 origin{0};
   double volume = 0, area = 0, size = 0;
   bool isStarted = false;
@@ -197,44 +204,105 @@ struct Measure {
   bool isSolid() const { return isFine && std::abs(volume) > 1e-6 * size * area; }
 };
 
-} // namespace
+/// What the triangles of a mesh are made of, and how they hang together.
+struct Analysis {
+  explicit Analysis(const Mesh& ofMesh) : mesh(ofMesh), keys(ofMesh) { listTriangles(); }
 
-SurfaceTopology analyseSurface(const Mesh& mesh) {
-  const VertexKeys keys(mesh);
-  const std::vector<std::uint32_t> welded = weld(keys);
+  void listTriangles();
+  void addTriangle(const std::array<std::uint32_t, 3>& welded, const std::array<glm::dvec3, 3>& points);
+  void connect();
+  bool closeHoles();
+
+  const Mesh& mesh;
+  VertexKeys keys;
   SurfaceTopology topology;
-  std::vector<std::array<glm::dvec3, 3>> positions;
+  std::vector<std::array<glm::dvec3, 3>> positions;  ///< a triangle
+  std::vector<std::array<std::uint32_t, 3>> corners; ///< a triangle of the mesh: vertices, not welded
+  UnionFind cornerSets{0};
+  std::vector<OddEdge> odd;
+  std::vector<Measure> measures; ///< a component
+};
+
+void Analysis::addTriangle(const std::array<std::uint32_t, 3>& welded, const std::array<glm::dvec3, 3>& points) {
+  topology.vertices.push_back(welded);
+  topology.isDegenerate.push_back(welded[0] == welded[1] || welded[1] == welded[2] || welded[2] == welded[0]);
+  positions.push_back(points);
+}
+
+void Analysis::listTriangles() {
+  const std::vector<std::uint32_t> welded = weld(keys);
   for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
     const Primitive& primitive = mesh.primitives[p];
+    const std::uint32_t first = keys.firstVertex(p);
     for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
       const std::uint32_t* index = &primitive.indices[i];
-      const std::uint32_t first = keys.firstVertex(p);
-      const std::array<std::uint32_t, 3> v{welded[first + index[0]], welded[first + index[1]],
-                                           welded[first + index[2]]};
-      topology.vertices.push_back(v);
-      topology.isDegenerate.push_back(v[0] == v[1] || v[1] == v[2] || v[2] == v[0]);
-      positions.push_back(
-          {primitive.positions[index[0]], primitive.positions[index[1]], primitive.positions[index[2]]});
+      corners.push_back({first + index[0], first + index[1], first + index[2]});
+      const auto& v = corners.back();
+      addTriangle({welded[v[0]], welded[v[1]], welded[v[2]]},
+                  {primitive.positions[index[0]], primitive.positions[index[1]], primitive.positions[index[2]]});
     }
   }
+}
+
+void Analysis::connect() {
   const std::size_t count = topology.triangleCount();
   topology.neighbours.assign(count, {SurfaceTopology::kNone, SurfaceTopology::kNone, SurfaceTopology::kNone});
-  UnionFind components(count), corners(3 * count);
-  const std::vector<bool> isFine = walkEdges(topology, keys.vertexCount(), components, corners);
-
   topology.componentOf.assign(count, SurfaceTopology::kNone);
-  std::vector<Measure> measures;
+  UnionFind components(count);
+  cornerSets = UnionFind(3 * count);
+  odd = walkEdges(topology, keys.vertexCount(), components, cornerSets);
+  measures.clear();
   for (std::uint32_t t = 0; t < count; ++t) {
     if (topology.isDegenerate[t]) continue;
     const std::uint32_t root = components.find(t);
     if (root == t) topology.componentOf[t] = static_cast<std::uint32_t>(measures.size()), measures.emplace_back();
-    Measure& measure = measures[topology.componentOf[t] = topology.componentOf[root]];
-    measure.add(positions[t]);
-    measure.isFine = measure.isFine && isFine[t];
+    measures[topology.componentOf[t] = topology.componentOf[root]].add(positions[t]);
   }
-  for (const Measure& measure : measures) topology.isClosedComponent.push_back(measure.isSolid());
-  makeFans(topology, corners);
-  return topology;
+  for (const OddEdge& edge : odd) {
+    Measure& measure = measures[topology.componentOf[edge.use.triangle]];
+    measure.isFine = false;
+    measure.isCappable = measure.isCappable && edge.isRim;
+  }
+}
+
+/// returns  whether there are caps now, which are not connected yet
+bool Analysis::closeHoles() {
+  std::vector<RimEdge> rims;
+  for (const OddEdge& edge : odd) {
+    const std::uint32_t t = edge.use.triangle, component = topology.componentOf[t];
+    if (!measures[component].isCappable) continue;
+    const std::size_t k = edge.use.edge, next = (k + 1) % 3;
+    const std::uint32_t vertex = corners[t][next], primitive = keys.primitiveOf(vertex);
+    rims.push_back({component, topology.vertices[t][next], topology.vertices[t][k], primitive,
+                    vertex - keys.firstVertex(primitive), positions[t][next]});
+  }
+  if (rims.empty()) return false;
+  std::vector<double> areas;
+  for (const Measure& measure : measures) areas.push_back(measure.area);
+  for (const HoleCap& cap : capSmallHoles(rims, areas, topology.vertices)) {
+    std::array<std::uint32_t, 3> welded{}, vertices{};
+    std::array<glm::dvec3, 3> points{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const RimEdge& rim = rims[cap[k]];
+      welded[k] = rim.from, points[k] = rim.pointFrom;
+      vertices[k] = rim.vertexFrom;
+    }
+    topology.caps.push_back({rims[cap[0]].primitive, vertices});
+    addTriangle(welded, points);
+  }
+  return !topology.caps.empty();
+}
+
+} // namespace
+
+SurfaceTopology analyseSurface(const Mesh& mesh) {
+  Analysis analysis(mesh);
+  analysis.connect();
+  if (analysis.closeHoles()) analysis.connect();
+  SurfaceTopology& topology = analysis.topology;
+  for (const Measure& measure : analysis.measures) topology.isClosedComponent.push_back(measure.isSolid());
+  makeFans(topology, analysis.cornerSets);
+  return std::move(topology);
 }
 
 } // namespace brickfield

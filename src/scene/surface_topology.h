@@ -15,6 +15,12 @@ namespace brickfield {
 struct SurfaceTopology {
   static constexpr std::uint32_t kNone = ~0u;
 
+  /// A triangle that closes a small hole, behind those of the mesh in all that has a row a triangle.
+  struct Cap {
+    std::uint32_t primitive;
+    std::array<std::uint32_t, 3> vertices; ///< of the primitive
+  };
+
   std::uint32_t vertexCount = 0;
   std::vector<std::array<std::uint32_t, 3>> vertices;   ///< a triangle: its welded corners
   std::vector<std::array<std::uint32_t, 3>> neighbours; ///< a triangle: who shares the edge and nobody else, walking
@@ -26,6 +32,7 @@ struct SurfaceTopology {
   /// The corners around vertex v are fanCorners[fanStarts[v]] up to before fanStarts[v + 1]: 4 * triangle + corner.
   std::vector<std::uint32_t> fanStarts;
   std::vector<std::uint32_t> fanCorners;
+  std::vector<Cap> caps; ///< by their primitives
 
   std::size_t triangleCount() const { return vertices.size(); }
   bool isClosed(std::size_t triangle) const {
@@ -33,11 +40,16 @@ struct SurfaceTopology {
   }
 };
 
+/// Where all edges of a component have two uses but those around holes that are together no larger than a fiftieth of
+/// its surface, caps close it: less light than that comes to its inside, and as a sheet it would be thicker by half a
+/// texel to each side (a twig, of which only the ends are open).
+///
 /// Corners are one vertex where their rest positions are equal, their joints and weights (in any order) and the offsets
 /// of all morph targets too, and where edges connect their triangles: surfaces that only touch in a point have a vertex
 /// each there, so that its pseudonormal knows one fan.
 ///
 /// mesh    indices in range, as imported
+/// bound   holes of more than 256 edges, of several primitives or that no triangles of some height fill stay open
 /// cost    nearly linear, one thread: half a microsecond a triangle
 /// proved by tests/unit/scene/surface_topology_test.cpp
 SurfaceTopology analyseSurface(const Mesh& mesh);

@@ -14,6 +14,7 @@
 #include "tests/support/data.h"
 #include "tests/support/gl_fixture.h"
 #include "tests/support/hand_scenes.h"
+#include "tests/support/tube_mesh.h"
 
 namespace brickfield::test {
 namespace {
@@ -210,6 +211,34 @@ TEST_F(WorldTrianglesTest, FarFromTheOriginFloatsTellTenthsOfMillimetres) {
   const Pose pose = poseScene(scene, {});
   gathering.set(pose, {16384, 0.5, -16384.25});
   expectPlaced(scene, pose, gathering.gather(), gathering.world);
+}
+
+// The ends of thin tubes are closed by triangles that go where their primitive goes: what is gathered encloses the
+// tubes' volume, the morphed one's too, whose vertices lie elsewhere.
+TEST_F(WorldTrianglesTest, CapsGoWithTheirPrimitives) {
+  constexpr std::uint32_t kSides = 12;
+  Scene scene = boxScene({at({3, 1, 2})});
+  Mesh& mesh = scene.meshes[0];
+  mesh = makeTubeMesh(0.02f, 2, kSides);
+  mesh.primitives.push_back(makeTubeMesh(0.03f, 2, kSides).primitives[0]);
+  for (glm::vec3& position : mesh.primitives[1].positions) position.x += 1;
+  for (Primitive& primitive : mesh.primitives) {
+    primitive.morphTargets.emplace_back();
+    for (const glm::vec3& position : primitive.positions)
+      primitive.morphTargets[0].positions.push_back({0, 0, 0.5f * position.z});
+  }
+  mesh.morphWeights = {1};
+  Gathering gathering(scene);
+  gathering.set(poseScene(scene, {}), glm::dvec3(3, 1, 2));
+  const auto triangles = gathering.gather();
+  EXPECT_EQ(triangles.size(), 2u * (2 * kSides + 2 * (kSides - 2)));
+  double volume = 0;
+  for (const shared::WorldTriangle& triangle : triangles) {
+    EXPECT_TRUE(triangle.codes.w & shared::WORLD_TRIANGLE_CLOSED);
+    const glm::dvec3 a(triangle.a), b(triangle.b), c(triangle.c);
+    volume += glm::dot(a, glm::cross(b, c)) / 6;
+  }
+  EXPECT_NEAR(volume, tubeVolume(0.02, 3, kSides) + tubeVolume(0.03, 3, kSides), 1e-5);
 }
 
 TEST_F(WorldTrianglesTest, WhatIsNotFiniteIsNoTriangle) {

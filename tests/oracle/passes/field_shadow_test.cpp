@@ -3,6 +3,7 @@
 
 #include "tests/oracle/passes/edge_scene.h"
 #include "tests/support/gl_fixture.h"
+#include "tests/support/tube_mesh.h"
 
 namespace brickfield::test {
 namespace {
@@ -223,6 +224,29 @@ TEST_F(FieldShadow, GapsUnderBallsAreLitAsFarAsTheSunReaches) {
     EXPECT_LE(dark, degrees < 30 ? free / 9 : free / 50) << degrees;
     EXPECT_LE(leaking, covered / 50) << degrees;
   }
+}
+
+// A tube is no thicker in the field than it is though its ends are open: its sides are no sheets.
+TEST_F(FieldShadow, TubesOpenAtTheirEndsCastShadowsAsWideAsTheyAre) {
+  constexpr float kRadius = 2 * 2.4f / 128;
+  Scene built = slabOverFloor();
+  built.nodes[1].matrix = glm::translate(glm::mat4(1), {0.003f, 0.4f, 0});
+  built.meshes[1] = makeTubeMesh(kRadius, 1.1f, 32);
+  const TestScene scene(std::move(built), "none");
+  const auto renderer = scene.makeRenderer(context().info(), marching(128));
+  renderer->setLighting(overheadSun(scene, 0.5));
+  const View view = scene.view({0.8f, 0.3f, 0}, {0, 0, 0}, kSize, 40);
+  renderer->render(view);
+  std::vector<FloorSample> row;
+  for (const FloorSample& sample : floorSamples(view, renderer->readLayers()))
+    if (std::abs(sample.z) < 0.01 && std::abs(sample.x) < 0.2) row.push_back(sample);
+  std::sort(row.begin(), row.end(), [](auto& a, auto& b) { return a.x < b.x; });
+  ASSERT_GT(row.size(), 500u);
+  double width = 0;
+  for (std::size_t i = 1; i < row.size(); ++i)
+    width += (1 - 0.5 * (row[i].visible + row[i - 1].visible)) * (row[i].x - row[i - 1].x);
+  std::printf("shadow of a tube: %.4f m, as thick as %.4f m\n", width, 2 * static_cast<double>(kRadius));
+  EXPECT_NEAR(width, 2 * kRadius, 0.2 * 2.4 / 128); // of a texel; a sheet's would be wider by 0.75 of one
 }
 
 // The same where two sheets meet on the floor: in their corner the field rises along no short way.

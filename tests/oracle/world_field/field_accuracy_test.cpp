@@ -31,7 +31,9 @@ struct Ball {
   Pose pose;
   explicit Ball(bool isOpen = false) : scene(makeTorusAlone()) {
     scene.meshes[0] = makeSphereMesh(1.0f, 24, 48);
-    if (isOpen) scene.meshes[0].primitives[0].indices.resize(scene.meshes[0].primitives[0].indices.size() - 3);
+    constexpr std::size_t kRings = 3; // a hole of a twenty-sixth of the ball; smaller ones are closed
+    auto& indices = scene.meshes[0].primitives[0].indices;
+    if (isOpen) indices.resize(indices.size() - kRings * 48 * 6);
     scene.nodes[0].matrix.reset();
     scene.nodes[0].translation = glm::vec3(kAnchor);
     pose = poseScene(scene, {});

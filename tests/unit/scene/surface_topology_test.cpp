@@ -8,6 +8,7 @@
 #include "scene/surface_topology.h"
 #include "tests/support/data.h"
 #include "tests/support/hand_scenes.h"
+#include "tests/support/tube_mesh.h"
 
 namespace brickfield::test {
 namespace {
@@ -202,6 +203,44 @@ TEST(SurfaceTopologyTest, CornersThatMoveApartStayApart) {
   EXPECT_EQ(analyseSurface(morphed).vertexCount, 4u);
   morphed.primitives[0].morphTargets[0].positions[5].z = 2;
   EXPECT_EQ(analyseSurface(morphed).vertexCount, 6u);
+}
+
+// Twelve corners around each end need ten caps, which face outwards: with them the tube has its volume.
+TEST(SurfaceTopologyTest, EndsOfThinTubesAreClosed) {
+  constexpr std::uint32_t kSides = 12;
+  const Mesh mesh = makeTubeMesh(1, 60, kSides);
+  const SurfaceTopology topology = analyseSurface(mesh);
+  expectConsistent(topology);
+  EXPECT_EQ(topology.isClosedComponent, std::vector<bool>{true});
+  ASSERT_EQ(topology.caps.size(), 2u * (kSides - 2));
+  EXPECT_EQ(topology.triangleCount(), 2u * kSides + topology.caps.size());
+  const Primitive& primitive = mesh.primitives[0];
+  double volume = 0;
+  const auto add = [&](const std::uint32_t* v) {
+    const auto& p = primitive.positions;
+    volume += glm::dot(glm::dvec3(p[v[0]]), glm::cross(glm::dvec3(p[v[1]]), glm::dvec3(p[v[2]]))) / 6;
+  };
+  for (std::size_t i = 0; i < primitive.indices.size(); i += 3) add(&primitive.indices[i]);
+  for (const SurfaceTopology::Cap& cap : topology.caps) add(cap.vertices.data());
+  EXPECT_NEAR(volume, tubeVolume(1, 60, kSides), 1e-3);
+}
+
+TEST(SurfaceTopologyTest, OtherHolesStayOpen) {
+  Mesh wide = makeTubeMesh(1, 20, 12);  // its ends are a fortieth of its surface
+  Mesh split = makeTubeMesh(1, 60, 12); // corners of a cap would be deformed by two primitives
+  split.primitives.push_back(split.primitives[0]);
+  split.primitives[0].indices.resize(36);
+  split.primitives[1].indices.erase(split.primitives[1].indices.begin(), split.primitives[1].indices.begin() + 36);
+  Mesh flat = makeTubeMesh(1, 60, 12); // its ends are slits, which no triangles fill
+  for (glm::vec3& position : flat.primitives[0].positions) position.y = 0;
+  Mesh torn = makeTubeMesh(1, 60, 12); // not all else is fine
+  std::swap(torn.primitives[0].indices[0], torn.primitives[0].indices[1]);
+  for (const Mesh& mesh : {wide, split, flat, torn}) {
+    const SurfaceTopology topology = analyseSurface(mesh);
+    expectConsistent(topology);
+    EXPECT_EQ(closedCount(topology), 0u);
+    EXPECT_TRUE(topology.caps.empty());
+  }
 }
 
 TEST(SurfaceTopologyTest, EmptyMeshHasNothing) {
