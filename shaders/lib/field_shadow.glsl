@@ -55,6 +55,8 @@ const uint MOST_DOWN_READS = 10u;
 // not drawn, that may lead through it.
 const float OUT_STEP_GRAINS = 0.2, LEAST_RISE_GRAINS = 0.02, ASIDE_GRAINS = 0.5;
 const uint MOST_OUT_READS = 8u;
+// Where the way leaves a sheet nearly along it: outside by so much at least, and so many metres more in each of the way.
+const float LEAVING_GRAINS = 0.02, LEAST_LEAVING = 0.02;
 
 uint shadowReads = 0u; // of this thread
 bool isMeanOfCell = false; // what was marched last, see partOfLight
@@ -225,12 +227,17 @@ void goOn(inout March march, ShadowCone cone, float way, float grain) {
   if (march.sure >= cone.end) finish(march, 1.0);
 }
 
+// Of what is read, so far on the way.
+float errorAt(March march, ShadowCone cone, float t) {
+  return march.error * max(1.0 - t / (ERROR_FADE_GRAINS * cone.grain), 0.0);
+}
+
 // The cone's first step, once nothing is known to lie below where it begins. Beside a solid too: what stands there, lower
 // than a grain, is what the rays find.
 void leaveSurface(inout March march, ShadowCone cone) {
   march.stage = CONE;
   march.reads = 1u;
-  march.t = firstStep(cone);
+  march.t = march.above = firstStep(cone);
   if (isOnSheet(cone) && march.ball < LEAST_WIDTH_GRAINS * march.ballGrain)
     begin(march, OUT, 0.0);
   else
@@ -258,12 +265,20 @@ void stepBelow(inout March march, inout ShadowCone cone, ShadowReading reading) 
     beginOnSolid(march, cone);
 }
 
+// Whether what is near is the sheet that the way leaves, nearly along it: what is read rises, and is outside. Where a sheet
+// is crossed neither holds: there it is inside, or falls. Not less the point's error: that fades faster than such ways rise.
+bool isLeavingSheet(March march, ShadowCone cone, float ball) {
+  float read = ball + errorAt(march, cone, march.t), before = march.ball + errorAt(march, cone, march.above);
+  return isOnSheet(cone) && read >= LEAVING_GRAINS * cone.grain && read >= before + LEAST_LEAVING * (march.t - march.above);
+}
+
 void stepCone(inout March march, inout ShadowCone cone, ShadowReading reading, float softness, int cell) {
-  float radius = cone.spread * march.t, ball = reading.distanceWorld, touch = max(radius, LEAST_WIDTH_GRAINS * reading.grain);
+  float radius = cone.spread * march.t, ball = reading.distanceWorld, touch = radius;
   if (march.reads == 1u) {
     stepFirst(march, cone, reading);
     return;
   }
+  if (!isLeavingSheet(march, cone, ball)) touch = max(touch, LEAST_WIDTH_GRAINS * reading.grain);
   vec2 way = wayInBall(ball, radius, cone.spread);
   if (march.t > march.sure && (ball < touch || march.t - way.y > march.sure)) { // the ball does not reach back: there again
     march.t = march.sure;
@@ -273,6 +288,8 @@ void stepCone(inout March march, inout ShadowCone cone, ShadowReading reading, f
   } else if (ball < touch) {
     beginRays(march, cone, march.t, softness, cell);
   } else {
+    march.ball = ball;
+    march.above = march.t;
     goOn(march, cone, way.x, reading.grain);
   }
   if (march.stage == CONE && march.reads >= MOST_CONE_READS) beginRays(march, cone, march.sure, softness, cell);
@@ -290,7 +307,7 @@ void stepDown(inout March march, ShadowCone cone, ShadowReading reading) {
 void leaveSheet(inout March march, inout ShadowCone cone) {
   march.stage = CONE;
   march.reads = 1u;
-  march.sure = march.t;
+  march.sure = march.above = march.t;
   march.lift = cone.lift = march.lift + climbed(march, cone);
 }
 
@@ -395,8 +412,7 @@ float shadowOf(ShadowCone cone, int rays, float softness, int cell) {
       continue;
     }
     march.lift = cone.lift;
-    if (march.stage >= CONE)
-      reading.distanceWorld -= march.error * max(1.0 - march.t / (ERROR_FADE_GRAINS * cone.grain), 0.0);
+    if (march.stage >= CONE) reading.distanceWorld -= errorAt(march, cone, march.t);
     ++march.reads;
     if (march.stage == RAY)
       stepRay(march, cone, reading, cell);

@@ -226,6 +226,47 @@ TEST_F(FieldShadow, GapsUnderBallsAreLitAsFarAsTheSunReaches) {
   }
 }
 
+// The same where the sun shines nearly along the sheet, wherever this lies between texels, and turned.
+TEST_F(FieldShadow, FeetOfSheetsAreLitBySunsNearlyInTheirPlane) {
+  for (const double turn : {0.0, 30.0}) {
+    std::size_t lit = 0, dark = 0, covered = 0, leaking = 0;
+    const glm::vec3 normal(std::cos(glm::radians(turn)), 0, std::sin(glm::radians(turn))),
+        along(-normal.z, 0, normal.x);
+    for (const float offset : {0.003f, 0.008f, 0.013f, 0.018f}) {
+      Scene built = slabOverFloor();
+      Mesh wall;
+      wall.primitives.emplace_back();
+      for (const glm::vec2 corner : {glm::vec2(-1, 0), {1, 0}, {1, 0.5f}, {-1, 0.5f}})
+        wall.primitives[0].positions.push_back(offset * normal + corner.x * along + glm::vec3(0, corner.y, 0));
+      wall.primitives[0].normals.assign(4, normal);
+      wall.primitives[0].indices = {0, 1, 2, 0, 2, 3};
+      built.nodes[1].matrix = glm::mat4(1);
+      built.meshes[1] = std::move(wall);
+      const TestScene scene(std::move(built), "none");
+      const auto renderer = scene.makeRenderer(context().info(), marching(128));
+      const glm::vec3 travels = -0.15f * normal;
+      const std::string sun = "sun:" + std::to_string(travels.x) + ",-1," + std::to_string(travels.z) + ":0.5:3";
+      renderer->setLighting(makeLighting(scene.pose(), {sun}, {{1, 1}, {glm::vec3(0)}}));
+      const double texel = 2.4 / 128;
+      for (const float eye : {0.3f, -0.3f}) {
+        const View view = scene.view(eye * normal + glm::vec3(0, 0.3f, 0), {0.003f, 0, 0}, {240, 180}, 20);
+        renderer->render(view);
+        for (const FloorSample& sample : floorSamples(view, renderer->readLayers())) {
+          const double way = (normal.x * sample.x + normal.z * sample.z - offset) / texel;
+          if (way > 0.1 && way < 0.9) ++lit, dark += sample.visible < 0.98;
+          if (way < -0.1 && way > -1.7) ++covered, leaking += sample.visible > 0.02;
+        }
+      }
+    }
+    ASSERT_GT(lit, 1000u);
+    ASSERT_GT(covered, 1000u);
+    std::printf("feet of sheets, sun nearly in their plane, turned by %g: %zu of %zu dark, %zu of %zu leaking\n", turn,
+                dark, lit, leaking, covered);
+    EXPECT_LE(dark, lit / 10) << turn;
+    EXPECT_LE(leaking, covered / 1000) << turn;
+  }
+}
+
 // A tube is no thicker in the field than it is though its ends are open: its sides are no sheets.
 TEST_F(FieldShadow, TubesOpenAtTheirEndsCastShadowsAsWideAsTheyAre) {
   constexpr float kRadius = 2 * 2.4f / 128;
