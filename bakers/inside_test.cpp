@@ -11,6 +11,7 @@
 namespace brickfield {
 
 namespace {
+constexpr double kMostSlack = 0.25; // of turns that are looked at for the nearest whole number
 constexpr double kFarExcess = 0.45; // almost no turn or almost a whole one: no hole is near
 // Distances to membranes are estimates to first order: what rims may be off by must not show beside that.
 constexpr double kMembraneSlack = 1e-3;
@@ -58,6 +59,15 @@ double SolidWinding::excessBy(glm::dvec3 point, double fraction) const {
   if (!signless_ && closed != 0) return HUGE_VAL;
   const double turns = open_->nearlyAt(point).turns + (signless_ ? closed : 0.0);
   return excessOf(fraction + std::round(turns - fraction));
+}
+
+NearlyTurns SolidWinding::nearlyTurns(glm::dvec3 point, const NearRims& near) const {
+  const double closed = closedTurns(point);
+  if (!signless_ && closed != 0) return {HUGE_VAL, 0};
+  NearlyTurns turns = open_->nearlyAt(point, near);
+  if (turns.slack >= kMostSlack) turns = {open_->exactlyAt(point), 0};
+  turns.turns += signless_ ? closed : 0.0;
+  return turns;
 }
 
 double SolidWinding::membraneDistance(glm::dvec3 point, double limit, const NearRims* near) const {

@@ -32,6 +32,9 @@ public:
   std::optional<NearRims> nearRims(glm::dvec3 center, double radius) const {
     return open_ ? open_->nearRims(center, radius) : std::nullopt;
   }
+  const Rims* rims() const { return open_ ? &open_->rims() : nullptr; }
+  NearlyTurns nearlyTurns(glm::dvec3 point, const NearRims& near) const;
+  bool isInsideBy(double turns) const { return excessOf(turns) >= 0; }
   bool isSteady(glm::dvec3 center, double radius) const;
   double membraneDistance(glm::dvec3 point, double limit, const NearRims* near = nullptr) const;
   /// True where the answer can change without a surface between: open triangles.
@@ -81,6 +84,12 @@ public:
   std::optional<NearRims> nearRims(glm::dvec3 center, double radius) const {
     return winding_ ? winding_->nearRims(center, radius) : std::nullopt;
   }
+  /// The open triangles' rims; nothing where there are none.
+  const Rims* rims() const { return winding_ ? winding_->rims() : nullptr; }
+  /// With rims: the winding number to a quarter; infinite where closed triangles alone make the point an inside one.
+  NearlyTurns nearlyTurns(glm::dvec3 point, const NearRims& near) const { return winding_->nearlyTurns(point, near); }
+  /// With rims: the answer where the winding number is so large.
+  bool isInsideBy(double turns) const { return winding_->isInsideBy(turns); }
   /// How far a point is from where the answer changes although no triangle is there, to first order: excess by slope.
   ///
   /// returns  soup space; infinite beyond limit or where the number is almost whole

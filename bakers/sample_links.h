@@ -26,6 +26,8 @@ void forEachSample(const SampleMask& mask, const Visit& visit) {
 
 /// Samples that a triangle goes through: they have no side, and no neighbour can be told to lie on theirs.
 SampleMask samplesOffSurface(const float* distances);
+/// Samples with values below a limit.
+SampleMask samplesBelow(const float* values, float limit);
 
 inline SampleMask allSamplesMask() {
   SampleMask mask;
@@ -45,6 +47,10 @@ public:
   /// distances  512, unsigned, in voxels
   explicit SampleLinks(const float* distances);
 
+  /// Takes out the links that cross what hangs from an edge down along z without end, and some that almost do.
+  ///
+  /// from, to  voxels from the brick's first sample
+  void cutBelow(glm::vec3 from, glm::vec3 to);
   /// Floods from a sample over those that are left, and takes them out of `left`.
   ///
   /// returns  what was reached, the sample among it
@@ -77,6 +83,8 @@ private:
   static std::uint64_t ahead(std::uint64_t bits);
   template <std::size_t kStep>
   static std::uint64_t behind(std::uint64_t bits);
+  struct Crossing;
+  void cutCrossing(const Crossing& crossing);
   std::uint64_t grownWithin(std::size_t z, std::uint64_t front) const;
   std::uint64_t grownUp(std::size_t z, std::uint64_t bits) const;
   std::uint64_t grownDown(std::size_t z, std::uint64_t bits) const;

@@ -9,14 +9,23 @@ WIDE_INLINE Wide wideAt(const float* lanes) {
   return result;
 }
 
-/// Bits of those that are above zero.
-inline void markPositive(const float* samples, SampleMask& mask) {
+/// Bits of those for which test(eight of them) holds.
+template <typename Test>
+WIDE_INLINE void mark(const float* samples, SampleMask& mask, const Test& test) {
   for (std::size_t z = 0; z < mask.size(); ++z) {
     std::uint64_t bits = 0;
     for (std::size_t row = 0; row < 8; ++row)
-      bits |= std::uint64_t{bitsOf(wideAt(samples + 64 * z + 8 * row) > wide(0.0f))} << (8 * row);
+      bits |= std::uint64_t{bitsOf(test(wideAt(samples + 64 * z + 8 * row)))} << (8 * row);
     mask[z] = bits;
   }
+}
+inline void markPositive(const float* samples, SampleMask& mask) {
+  mark(
+      samples, mask, [](const Wide& v) __attribute__((always_inline)) { return v > wide(0.0f); });
+}
+inline void markBelow(const float* samples, float limit, SampleMask& mask) {
+  mark(
+      samples, mask, [limit](const Wide& v) __attribute__((always_inline)) { return v < wide(limit); });
 }
 
 /// Bits of the samples of which two a step apart are more than its length when summed up.

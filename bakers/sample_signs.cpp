@@ -6,6 +6,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "bakers/brick_sampler.h"
+#include "bakers/rim_turns.h"
 #include "bakers/sample_links.h"
 
 namespace brickfield {
@@ -22,18 +24,54 @@ public:
         cell_(cell),
         test_(test),
         near_(test.nearRims(pointAt(SampleCube{}.centerVoxels()), SampleCube{}.radiusVoxels() * grid.voxelSize)),
-        distances_(distances) {
-    if (!distances) return;
-    links_.emplace(distances);
-    offSurface_ = samplesOffSurface(distances);
-  }
+        distances_(distances ? distances : nowhere().data()),
+        links_(distances_),
+        offSurface_(samplesOffSurface(distances_)) {}
 
   SampleSigns run() {
+    if (near_) {
+      const RimTurns rims(*test_.rims(), pointAt(glm::dvec3(0.0)), grid_.voxelSize);
+      if (rims.areMeasured()) {
+        askByTurns(rims);
+        return signs_;
+      }
+    }
     ask(SampleCube{});
     return signs_;
   }
 
 private:
+  /// Distances of a cell that no triangle comes into.
+  static const std::array<float, kBrickSampleCount>& nowhere() {
+    static const std::array<float, kBrickSampleCount> far = [] {
+      std::array<float, kBrickSampleCount> distances;
+      distances.fill(static_cast<float>(kSampledRangeVoxels));
+      return distances;
+    }();
+    return far;
+  }
+
+  /// The deepest sample of each group tells by which whole number rims and curtains are off in all of it.
+  void askByTurns(const RimTurns& rims) {
+    rims.cut(links_);
+    SampleMask left = rims.known(), unknown = offSurface_;
+    for (std::size_t z = 0; z < left.size(); ++z) left[z] &= offSurface_[z], unknown[z] &= ~left[z];
+    forEachSample(unknown, [&](std::size_t i) { signs_[i] = isInside(sampleOfIndex(i)); });
+    for (std::size_t z = 0; z < left.size(); ++z)
+      while (left[z] != 0) {
+        const SampleMask group = links_.flood(64 * z + static_cast<std::size_t>(std::countr_zero(left[z])), left);
+        const glm::ivec3 deepest = sampleOfIndex(deepestOf(group, distances_));
+        const double turns = test_.nearlyTurns(grid_.sample(cell_, deepest), *near_).turns;
+        const double whole = std::round(turns - rims.at(sampleIndex(deepest)).turns);
+        forEachSample(group, [&](std::size_t i) {
+          const auto [ofRims, slack] = rims.at(i);
+          const bool isInsideHere = test_.isInsideBy(ofRims + whole - slack);
+          const bool isClear = isInsideHere == test_.isInsideBy(ofRims + whole + slack);
+          signs_[i] = isClear ? isInsideHere : isInside(sampleOfIndex(i));
+        });
+      }
+  }
+
   void ask(const SampleCube& cube) {
     if (cube.side == 1) return askOne(cube.first);
     const double radius = cube.radiusVoxels() * grid_.voxelSize;
@@ -89,15 +127,10 @@ private:
 
   /// The deepest sample of each group answers for it. Those on the surface have no side: outside.
   void askGroups(SampleMask left) {
-    if (!links_) {
-      for (std::size_t z = 0; z < left.size(); ++z)
-        if (left[z] != 0) return answer(64 * z + static_cast<std::size_t>(std::countr_zero(left[z])), left);
-      return;
-    }
     for (std::size_t z = 0; z < left.size(); ++z) left[z] &= offSurface_[z];
     for (std::size_t z = 0; z < left.size(); ++z)
       while (left[z] != 0) {
-        const SampleMask group = links_->flood(64 * z + static_cast<std::size_t>(std::countr_zero(left[z])), left);
+        const SampleMask group = links_.flood(64 * z + static_cast<std::size_t>(std::countr_zero(left[z])), left);
         answer(deepestOf(group, distances_), group);
       }
   }
@@ -112,10 +145,10 @@ private:
   const SampleGrid& grid_;
   glm::ivec3 cell_;
   const InsideTest& test_;
-  const std::optional<NearRims> near_; ///< of the cell; nothing: there are very many
+  const std::optional<NearRims> near_; ///< of the cell; nothing: there are none or very many
   const float* distances_;
-  std::optional<SampleLinks> links_;
-  SampleMask offSurface_{};
+  SampleLinks links_;
+  SampleMask offSurface_;
   SampleSigns signs_{};
 };
 
