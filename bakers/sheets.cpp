@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kVoxelsPerPlace = 8; // a place stands for a brick's worth of triangle
 constexpr int kMostPlacesPerSide = 4;
+constexpr std::size_t kMostPlaces = kMostPlacesPerSide * kMostPlacesPerSide;
 constexpr int kMostRounds = 64;
 
 // Mean turn around the triangles from which an open component counts as a solid. Open scans, teapots and aeroplanes
@@ -100,6 +101,30 @@ public:
       }
       for (std::size_t number = 0; number < places.count(); ++number) result[i] += closureAt(places, t, number);
       result[i] /= static_cast<double>(places.count());
+    });
+    return result;
+  }
+
+  /// What a place adds to its triangle's mean for certain, and by how much less that is than if it were wrapped.
+  struct PlaceShare {
+    double least = 0, lost = 0;
+  };
+  /// Of one place of each triangle, nothing where it has fewer; by its back alone, or by both sides.
+  std::vector<PlaceShare> placeShares(const std::vector<std::uint32_t>& triangles, std::size_t number,
+                                      bool isBackEnough) {
+    std::vector<PlaceShare> result(triangles.size());
+    tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) {
+      const std::uint32_t t = triangles[i];
+      const TrianglePlaces places(soup_, request_, t);
+      if (number >= places.count()) return;
+      const double share = 1.0 / static_cast<double>(places.count());
+      if (isBackEnough) {
+        const float turns = turnsAt(sideOf(t, number, false), places.behind(number));
+        result[i] = {share * std::clamp(static_cast<double>(turns), 0.0, 1.0), 0};
+      } else {
+        const double closure = closureAt(places, t, number);
+        result[i] = {share * closure, share * (1.0 - closure)};
+      }
     });
     return result;
   }
@@ -204,9 +229,11 @@ private:
     std::size_t triangleCount = 0, looked = 0;
     double area = 0, twoSidedArea = 0, flapArea = 0;
     double lookedArea = 0, lookedSquares = 0, closedArea = 0; ///< of the triangles that were looked at
+    double mostClosedArea = 0; ///< what that may come to, while not all places were looked at
     bool isTwoSided() const { return twoSidedArea > 0.5 * area; }
     double leastClosure() const { return isTwoSided() ? kClosedTwoSided : kClosedOneSided; }
     bool isSolid() const { return closedArea >= leastClosure() * lookedArea; }
+    bool isSure() const { return isSolid() || mostClosedArea < leastClosure() * lookedArea; }
     /// Of large components each n-th triangle is looked at first.
     std::size_t stride() const { return std::max<std::size_t>(1, triangleCount / kEnoughTriangles); }
     /// Whether what was seen is so far from the threshold that a look at more would not matter.
@@ -233,6 +260,11 @@ private:
     const auto isClear = [&](std::uint32_t t) { return componentOf(t).isClear(); };
     lookAt(first, true);
     std::erase_if(first, isClear);
+    // Where all triangles were looked at, their mean decides alone.
+    const auto middle =
+        std::stable_partition(first.begin(), first.end(), [&](std::uint32_t t) { return componentOf(t).stride() > 1; });
+    lookUntilSure({middle, first.end()});
+    first.erase(middle, first.end());
     for (const std::uint32_t t : first)
       componentOf(t).lookedArea = componentOf(t).lookedSquares = componentOf(t).closedArea = 0;
     lookAt(first, false);
@@ -246,6 +278,30 @@ private:
       const double area = soup_.areaOf(triangles[i]);
       component.lookedArea += area, component.lookedSquares += area * area;
       component.closedArea += area * closures[i];
+    }
+  }
+  /// Looks at all places of whole components, place by place, until nothing that is left can change which side of the
+  /// threshold they are on.
+  void lookUntilSure(const std::vector<std::uint32_t>& triangles) {
+    std::vector<std::uint32_t> probablySolid, others;
+    for (const std::uint32_t t : triangles) (componentOf(t).isSolid() ? probablySolid : others).push_back(t);
+    lookUntilSure(probablySolid, true); // at backs alone: fronts can only add to them
+    others.insert(others.end(), probablySolid.begin(), probablySolid.end());
+    lookUntilSure(others, false);
+  }
+  /// triangles  those are left whose component is not sure yet
+  void lookUntilSure(std::vector<std::uint32_t>& triangles, bool isBackEnough) {
+    for (const std::uint32_t t : triangles) componentOf(t).lookedArea = componentOf(t).closedArea = 0;
+    for (const std::uint32_t t : triangles) componentOf(t).lookedArea += soup_.areaOf(t);
+    for (const std::uint32_t t : triangles) componentOf(t).mostClosedArea = componentOf(t).lookedArea;
+    for (std::size_t number = 0; number < kMostPlaces && !triangles.empty(); ++number) {
+      const std::vector<SheetJudge::PlaceShare> shares = judge_.placeShares(triangles, number, isBackEnough);
+      for (std::size_t i = 0; i < triangles.size(); ++i) {
+        Component& component = componentOf(triangles[i]);
+        component.closedArea += soup_.areaOf(triangles[i]) * shares[i].least;
+        component.mostClosedArea -= soup_.areaOf(triangles[i]) * shares[i].lost;
+      }
+      std::erase_if(triangles, [&](std::uint32_t t) { return componentOf(t).isSure(); });
     }
   }
   Component& componentOf(std::uint32_t triangle) { return components_[topology_.componentOf[triangle]]; }
