@@ -25,13 +25,15 @@ public:
   LoopCutter(std::span<const RimEdge> rims, const Edges& edges) : rims_(rims), edges_(edges) {}
 
   /// Adds a loop's caps and their area.
-  bool cut(std::vector<std::uint32_t> loop, std::vector<HoleCap>& caps, double& area) {
+  ///
+  /// most  area; a larger one is not begun: no caps have less than what the loop spans, seen along its normal
+  bool cut(std::vector<std::uint32_t> loop, double most, std::vector<HoleCap>& caps, double& area) {
     if (loop.size() < 3 || loop.size() > kMostEdges) return false;
     const std::uint32_t primitive = rims_[loop[0]].primitive;
     if (!std::ranges::all_of(loop, [&](std::uint32_t e) { return rims_[e].primitive == primitive; })) return false;
     glm::dvec3 areaNormal(0);
     for (std::size_t i = 1; i + 1 < loop.size(); ++i) areaNormal += normalOf({loop[0], loop[i], loop[i + 1]});
-    if (!(glm::length(areaNormal) > 0)) return false;
+    if (!(glm::length(areaNormal) > 0) || area + glm::length(areaNormal) / 2 > most) return false;
     normal_ = glm::normalize(areaNormal);
     for (;;) {
       const std::size_t ear = roundestEar(loop);
@@ -111,9 +113,11 @@ std::vector<HoleCap> capSmallHoles(std::span<const RimEdge> rims, std::span<cons
   for (const auto& [component, ofComponent] : edgesOfComponent) {
     std::vector<HoleCap> caps;
     double area = 0;
+    const double most = kMostArea * areas[component];
     const auto loops = loopsOf(rims, ofComponent);
-    const bool isClosed = std::ranges::all_of(loops, [&](const auto& loop) { return cutter.cut(loop, caps, area); });
-    if (isClosed && area <= kMostArea * areas[component]) all.insert(all.end(), caps.begin(), caps.end());
+    const bool isClosed =
+        std::ranges::all_of(loops, [&](const auto& loop) { return cutter.cut(loop, most, caps, area); });
+    if (isClosed && area <= most) all.insert(all.end(), caps.begin(), caps.end());
   }
   std::ranges::stable_sort(all, {}, [&](const HoleCap& cap) { return rims[cap[0]].primitive; });
   return all;
