@@ -2,6 +2,7 @@
 #include "bakers/block_distance.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 

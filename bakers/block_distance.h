@@ -36,7 +36,7 @@ struct BlockRequest {
 using BlockHeights = std::span<float, kBrickSampleCount>;
 inline constexpr float kClearVoxels = 1e-4f; // above the error of a block
 
-/// Results are voxels and triangles of the wanted samples; others are left with anything.
+/// Results are voxels and triangles of the wanted samples; others get those, too, or infinity and kNoTriangle.
 ///
 /// heights    if given
 /// proved by  tests/bake/bakers/band_bake_test.cpp

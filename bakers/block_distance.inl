@@ -118,7 +118,7 @@ WIDE_INLINE FrameDistances frameDistances(const BlockFrame& frame, const EightPo
 #pragma GCC unroll 3
   for (std::size_t k = 0; k < 3; ++k) {
     const Wide t = form(kAlong + k), s = form(kInward + k);
-    const Wide beyond = most(most(wide(frame.from[k]) - t, t - wide(frame.to[k])), zero);
+    const Wide beyond = t - least(most(t, wide(frame.from[k])), wide(frame.to[k]));
     within = least(within, s * s + beyond * beyond);
     leastInward = least(leastInward, s);
   }
@@ -155,14 +155,16 @@ WIDE_INLINE void pick(const BlockFrame* frames, std::size_t count, const PlaceOf
     nearestAt = squares[i] < nearest ? WideMask{at, at, at, at, at, at, at, at} : nearestAt;
     nearest = least(nearest, squares[i]);
   }
+  const float radius = kHalfDiagonal * cubes.side;
+  const Wide mostFromCenter = wide((most_ + radius + kPickSlackVoxels) * (most_ + radius + kPickSlackVoxels));
   Wide farthestCorners{};
-  for (int lane = 0; lane < 8 && count > 0; ++lane) {
+  for (unsigned reached = bitsOf(nearest <= mostFromCenter); reached != 0; reached &= reached - 1) {
+    const int lane = std::countr_zero(reached);
     const glm::vec3 corner = cubes.first + cubes.apart * glm::vec3(lane & 1, lane >> 1 & 1, lane >> 2);
     const BlockFrame& nearestFrame = frames[placeOf(static_cast<std::size_t>(nearestAt[lane]))];
     const Wide ofCorners = frameDistances(nearestFrame, {corner, cubes.side}).squared;
     farthestCorners[lane] = largestOf(ofCorners);
   }
-  const float radius = kHalfDiagonal * cubes.side;
   const Wide reach = least(rootOf(farthestCorners), wide(most_)) + wide(radius + kPickSlackVoxels);
   const Wide reachSquared = reach * reach;
   std::array<std::size_t, 8> counts{};
@@ -227,28 +229,41 @@ bool isAnyWanted(const BlockRequest& request, glm::ivec3 first) {
   return false;
 }
 
+/// The eights of an eighth from a sample on, each by its triangles of those around the eighth.
+template <bool kWithHeights>
+WIDE_INLINE void measureEighth(const BlockRequest& request, const BlockFrame* frames,
+                               std::span<const std::uint16_t> here, glm::ivec3 origin, const BlockResults& results) {
+  EightPicks picks;
+  pick(
+      frames, here.size(), [here](std::size_t i) { return here[i]; }, {glm::vec3(origin) - kHalfBrick, 2.0f, 1.0f},
+      request.most, picks);
+  for (std::size_t eight = 0; eight < 8; ++eight) {
+    const auto s = static_cast<int>(eight);
+    const glm::ivec3 first = origin + 2 * glm::ivec3(s & 1, s >> 1 & 1, s >> 2);
+    const std::span<const std::uint16_t> picked = picks.of(eight);
+    if (!picked.empty() && isAnyWanted(request, first))
+      measureEight<kWithHeights>(request, frames, picked, first, results);
+  }
+}
+
 void measureBlock(const BlockRequest& request, BlockFrame* frames, const BlockResults& results) {
+  std::fill_n(results.distances, kBrickSampleCount, HUGE_VALF);
+  std::fill_n(results.nearest, kBrickSampleCount, kNoTriangle);
+  if (results.heights) std::fill_n(results.heights, kBrickSampleCount, HUGE_VALF);
   const std::size_t count = request.triangles.size();
   for (std::size_t i = 0; i < count; i += 4) setFrames(frames, i, request);
-  EightPicks ofEighths, ofEights;
+  EightPicks ofEighths;
   const auto itself = [](std::size_t i) { return i; };
   pick(frames, count, itself, {glm::vec3(-kHalfBrick), 4.0f, 3.0f}, request.most, ofEighths);
   for (std::size_t eighth = 0; eighth < 8; ++eighth) {
     const auto e = static_cast<int>(eighth);
     const glm::ivec3 origin = 4 * glm::ivec3(e & 1, e >> 1 & 1, e >> 2);
     const std::span<const std::uint16_t> here = ofEighths.of(eighth);
-    pick(
-        frames, here.size(), [here](std::size_t i) { return here[i]; }, {glm::vec3(origin) - kHalfBrick, 2.0f, 1.0f},
-        request.most, ofEights);
-    for (std::size_t eight = 0; eight < 8; ++eight) {
-      const auto s = static_cast<int>(eight);
-      const glm::ivec3 first = origin + 2 * glm::ivec3(s & 1, s >> 1 & 1, s >> 2);
-      if (!isAnyWanted(request, first)) continue;
-      if (results.heights)
-        measureEight<true>(request, frames, ofEights.of(eight), first, results);
-      else
-        measureEight<false>(request, frames, ofEights.of(eight), first, results);
-    }
+    if (here.empty()) continue;
+    if (results.heights)
+      measureEighth<true>(request, frames, here, origin, results);
+    else
+      measureEighth<false>(request, frames, here, origin, results);
   }
 }
 

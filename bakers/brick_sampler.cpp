@@ -74,10 +74,8 @@ void SurfaceSampler::runFar(glm::ivec3 brick, const SampleRows& wanted, float* d
   const std::size_t first = kBrickSamples * row + static_cast<std::size_t>(std::countr_zero(wanted[row]));
   const glm::dvec3 point = grid.sample(brick, sampleOfIndex(first));
   const NearestTriangle nearest = surface.nearest(point);
-  forEachWanted(wanted, [&](std::size_t i) {
-    distances[i] = static_cast<float>(kSampledRangeVoxels);
-    triangles[i] = nearest.triangle;
-  });
+  std::fill_n(distances, kSamples, static_cast<float>(kSampledRangeVoxels));
+  std::fill_n(triangles, kSamples, nearest.triangle);
   distances[first] = finish(point, nearest);
 }
 
@@ -103,10 +101,15 @@ bool SurfaceSampler::runBlock(glm::ivec3 brick, const SampleRows& wanted, float*
   const double halfVoxels = halfThickness / grid.voxelSize;
   std::uint32_t last = near[0];
   if (!slabs) { // samples that nothing is near are infinitely far here
-    forEachWanted(wanted, [&](std::size_t i) {
-      triangles[i] = last = nearest[i] != kNoTriangle ? nearest[i] : last;
-      distances[i] = std::min(onOrOff(found[i]), static_cast<float>(kSampledRangeVoxels));
-    });
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      last = nearest[i] != kNoTriangle ? nearest[i] : last;
+      triangles[i] = last;
+    }
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const float voxels = onOrOff(found[i]);
+      distances[i] =
+          voxels < static_cast<float>(kSampledRangeVoxels) ? voxels : static_cast<float>(kSampledRangeVoxels);
+    }
     return true;
   }
   forEachWanted(wanted, [&](std::size_t i) {

@@ -24,7 +24,7 @@ struct SurfaceSampler {
   double halfThickness = 0;          ///< of the slabs
   bool isCapped = true;              ///< distances beyond the range need not be exact
 
-  /// wanted     other samples are left as they are
+  /// wanted     other samples are left as they are, or get anything
   /// distances  512 of the brick, in voxels; the range where beyond it and capped
   /// triangles  the closest ones, or some of the brick's where beyond the range
   /// proved by  tests/bake/bakers/band_bake_test.cpp

@@ -6,6 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "bakers/float4.h"
 #include "bakers/membranes.h"
 #include "bakers/patch_graph.h"
 #include "bakers/stage_clock.h"
@@ -47,6 +48,9 @@ SignedSamples combine(LevelSamples& level, const LargeVector<std::uint8_t>& samp
       for (std::size_t i = 0; i < kSamples; ++i) distances[i] -= growth[begin + i];
     if (level.sheetDistances.empty()) return;
     const float* sheetDistances = &level.sheetDistances[begin];
+    const float leastSheet = leastOf(sheetDistances, kSamples, [](Float4 v) { return v; });
+    const float mostSolid = -leastOf(distances, kSamples, [](Float4 v) { return -v; });
+    if (leastSheet >= mostSolid) return;
     const std::uint32_t* sheetTriangles = &level.sheetTriangles[begin];
     std::uint32_t* triangles = &result.triangles[begin];
     std::uint8_t* isSheet = &result.isSheet[begin];

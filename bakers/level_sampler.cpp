@@ -5,6 +5,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include <tbb/parallel_for.h>
 
@@ -44,9 +45,10 @@ public:
   /// slotOfCell  kNoBrick where there is no brick
   SharedSamples(const SampleGrid& grid, const std::vector<std::uint32_t>& slotOfCell, glm::ivec3 brick)
       : grid_(grid), slotOfCell_(slotOfCell), brick_(brick) {
+    lookAround();
     for (int z = 0; z < 3; ++z)
       for (int y = 0; y < 3; ++y)
-        for (int x = 0; x < 3; ++x) ownerOf_[static_cast<std::size_t>(9 * z + 3 * y + x)] = findOwner({x, y, z});
+        for (int x = 0; x < 3; ++x) ownerOf_[placeOf({x, y, z})] = findOwner({x, y, z});
   }
 
   SampleRows ownRows() const {
@@ -62,7 +64,7 @@ public:
     for (std::size_t sides = 0; sides < ownerOf_.size(); ++sides) {
       const glm::ivec3 owner = ownerOf_[sides];
       if (owner == glm::ivec3(0)) continue;
-      const std::size_t slot = slotOfCell_[grid_.cellOfBrick(brick_ + owner)];
+      const std::size_t slot = slots_[placeOf(owner + 1)];
       const auto s = static_cast<int>(sides);
       const Samples x = samplesOn(s % 3), y = samplesOn(s / 3 % 3), z = samplesOn(s / 9);
       glm::ivec3 sample(x.first, 0, 0);
@@ -81,12 +83,18 @@ private:
   static Samples samplesOn(int side) {
     return side == 0 ? Samples{0, 0} : side == 1 ? Samples{1, kBrickCells - 1} : Samples{kBrickCells, kBrickCells};
   }
-  bool exists(glm::ivec3 offset) const {
-    const glm::ivec3 brick = brick_ + offset;
-    if (glm::any(glm::lessThan(brick, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(brick, grid_.brickCounts)))
-      return false;
-    return slotOfCell_[grid_.cellOfBrick(brick)] != kNoBrick;
+  static std::size_t placeOf(glm::ivec3 sides) { return static_cast<std::size_t>(9 * sides.z + 3 * sides.y + sides.x); }
+  void lookAround() {
+    slots_.fill(kNoBrick);
+    const glm::ivec3 low = glm::max(brick_ - 1, 0), high = glm::min(brick_ + 1, grid_.brickCounts - 1);
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y) {
+        const std::size_t row = grid_.cellOfBrick({0, y, z});
+        for (int x = low.x; x <= high.x; ++x)
+          slots_[placeOf(glm::ivec3(x, y, z) - brick_ + 1)] = slotOfCell_[row + static_cast<std::size_t>(x)];
+      }
   }
+  bool exists(glm::ivec3 offset) const { return slots_[placeOf(offset + 1)] != kNoBrick; }
   /// Bricks that hold samples of these sides: along an axis the one that begins there before the one that ends there.
   glm::ivec3 findOwner(glm::ivec3 sides) const {
     const auto steps = [&](glm::length_t axis) { return sides[axis] == 1 ? 1 : 2; };
@@ -102,7 +110,8 @@ private:
   const SampleGrid& grid_;
   const std::vector<std::uint32_t>& slotOfCell_;
   glm::ivec3 brick_;
-  std::array<glm::ivec3, 27> ownerOf_; ///< by sides
+  std::array<std::uint32_t, 27> slots_; ///< of the bricks around, by offset + 1
+  std::array<glm::ivec3, 27> ownerOf_;  ///< by sides
 };
 
 /// Distances at candidates: each measures its own samples, then takes those that it shares from their owners.
@@ -145,14 +154,16 @@ private:
     SharedSamples(request_.grid, slotOfCell_, request_.grid.brickOfCell(candidates_[slot]))
         .forEachForeign([&](std::size_t sample, std::size_t owner, std::size_t ownerSample, std::size_t count) {
           const BrickPlaces from = samplesAt(owner * kSamples);
-          for (std::size_t i = 0; i < count && to.solidDistances; ++i) {
-            to.solidDistances[sample + i] = from.solidDistances[ownerSample + i];
-            to.solidTriangles[sample + i] = from.solidTriangles[ownerSample + i];
-          }
-          for (std::size_t i = 0; i < count && to.sheetDistances; ++i) {
-            to.sheetDistances[sample + i] = from.sheetDistances[ownerSample + i];
-            to.sheetTriangles[sample + i] = from.sheetTriangles[ownerSample + i];
-          }
+          const auto copyRow = [&](auto* values, const auto* ofOwner) {
+            if (count == 1)
+              values[sample] = ofOwner[ownerSample];
+            else // of the samples between two sides
+              std::memcpy(values + sample, ofOwner + ownerSample, (kBrickSamples - 2) * sizeof(*values));
+          };
+          if (to.solidDistances)
+            copyRow(to.solidDistances, from.solidDistances), copyRow(to.solidTriangles, from.solidTriangles);
+          if (to.sheetDistances)
+            copyRow(to.sheetDistances, from.sheetDistances), copyRow(to.sheetTriangles, from.sheetTriangles);
         });
   }
   float leastDistance(std::size_t slot) {
