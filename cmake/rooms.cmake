@@ -28,6 +28,8 @@ endfunction()
 
 brickfield_room(core src/core fmt::fmt PkgConfig::XXHASH Threads::Threads)
 brickfield_room(field src/field brickfield_core PkgConfig::ZSTD)
+# Codes of samples are made four at a time.
+set_source_files_properties(src/field/brick_layout.cpp PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
 brickfield_room(gpu src/gpu brickfield_core PkgConfig::EPOXY PkgConfig::EGL glfw)
 brickfield_room(scene src/scene brickfield_field brickfield_core nlohmann_json::nlohmann_json TinyGLTF::TinyGLTF)
 brickfield_room(resident src/resident brickfield_scene brickfield_gpu)

@@ -88,22 +88,42 @@ float rangeVoxelsWithoutClamp(float largestDistanceVoxels) {
   return std::max(kNarrowBandVoxels, std::ceil(largestDistanceVoxels));
 }
 
+namespace {
+
+/// As encodeDistance, of a share of the range that is clamped; without branches.
+inline std::int32_t encodeShare(float share, float distanceVoxels, DistanceFormat format) {
+  const float value = share * static_cast<float>(largestCode(format));
+  const auto whole = static_cast<std::int32_t>(value);
+  const float rest = value - static_cast<float>(whole); // exact
+  const std::int32_t code = whole + std::int32_t{rest >= 0.5f} - std::int32_t{rest <= -0.5f};
+  return code - (std::int32_t{code == 0} & std::int32_t{distanceVoxels < 0.0f});
+}
+
+} // namespace
+
 void writeBrickDistances(BrickLevel& level, std::uint32_t brickIndex,
                          std::span<const float, kBrickSampleCount> distancesObject) {
   const float voxelSize = level.voxelSizeObject, range = level.rangeVoxels;
   std::byte* to = level.distances.data() + std::size_t{brickIndex} * kBrickSampleCount * bytesPerSample(level.format);
-  const auto encode = [&](std::size_t i, DistanceFormat format) {
-    return encodeDistance(distancesObject[i] / voxelSize, range, format);
+  // A loop for each step, apart from the bytes, which could be anything's: compilers take four samples at once.
+  std::array<float, kBrickSampleCount> voxels, shares;
+  std::array<std::int32_t, kBrickSampleCount> codes;
+  for (std::size_t i = 0; i < kBrickSampleCount; ++i) voxels[i] = distancesObject[i] / voxelSize;
+  for (std::size_t i = 0; i < kBrickSampleCount; ++i) shares[i] = voxels[i] / range;
+  for (float& share : shares) share = share < 1.0f ? share : 1.0f; // NaN too
+  for (float& share : shares) share = share > -1.0f ? share : -1.0f;
+  const auto encode = [&](DistanceFormat format) {
+    for (std::size_t i = 0; i < kBrickSampleCount; ++i) codes[i] = encodeShare(shares[i], voxels[i], format);
   };
   if (level.format == DistanceFormat::R8Snorm) {
-    for (std::size_t i = 0; i < kBrickSampleCount; ++i)
-      to[i] = static_cast<std::byte>(encode(i, DistanceFormat::R8Snorm) & 0xff);
+    encode(DistanceFormat::R8Snorm);
+    for (std::size_t i = 0; i < kBrickSampleCount; ++i) to[i] = static_cast<std::byte>(codes[i] & 0xff);
     return;
   }
+  encode(DistanceFormat::R16Snorm);
   for (std::size_t i = 0; i < kBrickSampleCount; ++i) {
-    const std::int32_t code = encode(i, DistanceFormat::R16Snorm);
-    to[2 * i] = static_cast<std::byte>(code & 0xff);
-    to[2 * i + 1] = static_cast<std::byte>((code >> 8) & 0xff);
+    to[2 * i] = static_cast<std::byte>(codes[i] & 0xff);
+    to[2 * i + 1] = static_cast<std::byte>((codes[i] >> 8) & 0xff);
   }
 }
 

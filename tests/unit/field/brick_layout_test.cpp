@@ -123,5 +123,25 @@ TEST(AppendBrick, StoresWhatStoredDistanceReads) {
   }
 }
 
+TEST(AppendBrick, StoresTheCodeOfEachDistance) {
+  constexpr float kVoxelSize = 0.3f;
+  for (const auto format : {DistanceFormat::R8Snorm, DistanceFormat::R16Snorm})
+    for (const float scale : {1e-6f, 0.01f, 1.0f, 4.2f}) {
+      BrickLevel level = makeLevel({kVoxelSize, {1, 1, 1}}, format);
+      std::array<float, kBrickSampleCount> distances;
+      Random random(7);
+      for (float& distance : distances) distance = scale * kVoxelSize * random.between(-1, 1);
+      distances[0] = std::nanf(""), distances[1] = HUGE_VALF, distances[2] = -HUGE_VALF, distances[3] = -0.0f;
+      distances[4] = 0.5f / 127 * 4 * kVoxelSize, distances[5] = -distances[4];
+      appendBrick(level, {0, 0, 0}, distances);
+      for (std::size_t i = 0; i < distances.size(); ++i) {
+        const std::int32_t code = encodeDistance(distances[i] / kVoxelSize, level.rangeVoxels, format);
+        const std::size_t bytes = bytesPerSample(format);
+        for (std::size_t b = 0; b < bytes; ++b)
+          ASSERT_EQ(static_cast<int>(level.distances[bytes * i + b]), (code >> (8 * b)) & 0xff) << i;
+      }
+    }
+}
+
 } // namespace
 } // namespace brickfield
