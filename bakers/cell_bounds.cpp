@@ -91,6 +91,7 @@ private:
 struct PointBound {
   double voxels = std::numeric_limits<double>::infinity();
   bool inSheet = false;
+  std::uint32_t triangle = kNoTriangle; ///< that it comes from
 };
 
 /// A query that knows how far the last one was from its surface: a walk of so much farther is the most that can follow.
@@ -163,7 +164,8 @@ private:
   }
 
   PointBound boundBySolid(NearestTriangle nearest) const {
-    return {std::max(0.0, nearest.distance * (1 - kBlockSlack) / voxelSize() - request_.solidGrowthVoxels), false};
+    return {std::max(0.0, nearest.distance * (1 - kBlockSlack) / voxelSize() - request_.solidGrowthVoxels), false,
+            nearest.triangle};
   }
   void addSheets(glm::dvec3 point, NearestTriangle nearest, PointBound& bound) const {
     const SheetSlabs& slabs = *request_.surfaces->slabs;
@@ -174,14 +176,16 @@ private:
     bound.inSheet = fromSlab < 0;
     // A slab behind another sheet's triangle may reach this much nearer than the closest triangle's own.
     const double least = slabs.areAllCentred() ? std::abs(fromSlab) : closest.distance - reach();
-    bound.voxels = std::min(bound.voxels, std::max(least - kBlockSlack * closest.distance, 0.0) / voxelSize());
+    const double voxels = std::max(least - kBlockSlack * closest.distance, 0.0) / voxelSize();
+    if (voxels < bound.voxels) bound.voxels = voxels, bound.triangle = nearest.triangle;
   }
 
   const SamplingRequest& request_;
   std::optional<PathOfPoints> solid_, sheets_;
 };
 
-/// Bound over a whole cell. Cells that the centre cannot clear are looked at by eighths.
+/// Bound over a whole cell. Cells that the centre cannot clear are looked at by eighths, until one may be touched: by
+/// how much is of no interest.
 float cellBound(const SamplingRequest& request, glm::ivec3 brick, const CellCenters* solids, const CellCenters* sheets,
                 BoundPath& path, bool& inSheet) {
   const PointBound atCenter = path.atCell(brick, solids, sheets);
@@ -190,9 +194,13 @@ float cellBound(const SamplingRequest& request, glm::ivec3 brick, const CellCent
   if (byCenter > kTouchVoxels || byCenter < -kEighthHalfDiagonalVoxels) return static_cast<float>(byCenter);
   const glm::dvec3 center = request.grid.brickCenter(brick);
   const double quarter = 0.25 * kBrickCells * request.grid.voxelSize;
+  const glm::dvec3 towards = closestPointOnTriangle(center, request.soup->corners(atCenter.triangle)).point - center;
   double byEighths = std::numeric_limits<double>::infinity();
   BoundPath eighthPath = path;
-  for (int i = 0; i < 8 && byEighths > kTouchVoxels; ++i) {
+  // The one towards the surface first: it probably is touched.
+  const int first = (towards.x > 0 ? 1 : 0) + (towards.y > 0 ? 2 : 0) + (towards.z > 0 ? 4 : 0);
+  for (int number = 0; number < 8 && byEighths > kTouchVoxels; ++number) {
+    const int i = first ^ number;
     const glm::dvec3 corner(i & 1 ? quarter : -quarter, i & 2 ? quarter : -quarter, i & 4 ? quarter : -quarter);
     byEighths =
         std::min(byEighths, eighthPath.at(center + corner).voxels - kEighthHalfDiagonalVoxels - kBoundSlackVoxels);
