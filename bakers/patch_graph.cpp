@@ -59,10 +59,11 @@ private:
     const double away = glm::length(point - on);
     if (!(away > 0)) return kSamples;
     const glm::dvec3 toPlace = kOffVoxels / away * (point - on); // voxels
-    const auto [neighbour, gap] = nearestBall(sample, toPlace, own);
+    // A larger ball holds what is closest.
+    const double most = std::min(kMostLookVoxels, kOffVoxels + static_cast<double>(distances_[sample]));
+    const auto [neighbour, gap] = nearestBall(sample, toPlace, own, most);
     const double radius = std::max({kOffVoxels - static_cast<double>(distances_[sample]), gap, 0.0}) + kLookSlackVoxels;
-    if (neighbour == kSamples || radius > kMostLookVoxels) return kSamples;
-    if (radius > kOffVoxels + static_cast<double>(distances_[sample])) return kSamples; // holds what is closest
+    if (neighbour == kSamples || radius > most) return kSamples;
     const double voxel = level_.grid.voxelSize;
     const bool isClear = solid_.nearest(point + voxel * toPlace, radius * voxel).triangle == kNoTriangle;
     return isClear ? neighbour : kSamples;
@@ -72,8 +73,10 @@ private:
     std::size_t sample = kSamples;
     double gap = std::numeric_limits<double>::infinity(); ///< voxels from a place to it; negative inside
   };
-  /// Of the balls around a sample's neighbours in other patches the one that comes nearest to a place.
-  Ball nearestBall(std::size_t sample, glm::dvec3 toPlace, const SampleMask& own) const {
+  /// Of the balls around a sample's neighbours in other patches the one that comes nearest to a place, as near as most.
+  Ball nearestBall(std::size_t sample, glm::dvec3 toPlace, const SampleMask& own, double most) const {
+    // Neighbours are 1 or more away, and the place is kOffVoxels nearer at the most.
+    const auto least = static_cast<float>(1 - kOffVoxels - most);
     const glm::ivec3 from = sampleOfIndex(sample);
     const glm::ivec3 low = glm::max(from - 1, 0), high = glm::min(from + 1, kBrickSamples - 1);
     Ball nearest;
@@ -81,7 +84,7 @@ private:
       for (int y = low.y; y <= high.y; ++y)
         for (int x = low.x; x <= high.x; ++x) {
           const std::size_t i = sampleIndex({x, y, z});
-          if (isIn(own, i) || !(distances_[i] > 0)) continue;
+          if (!(distances_[i] > 0) || distances_[i] < least || isIn(own, i)) continue;
           const double gap =
               glm::length(toPlace - glm::dvec3(glm::ivec3(x, y, z) - from)) - static_cast<double>(distances_[i]);
           if (gap < nearest.gap) nearest = {i, gap};

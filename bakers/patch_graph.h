@@ -13,6 +13,7 @@
 // empty cell is one patch that joins all of its neighbours.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -50,10 +51,15 @@ public:
   /// The point of a patch that is farthest from the surface, or a cell's centre.
   glm::dvec3 pointOf(std::uint32_t patch) const;
 
-  /// Calls visit(patch, patch) once for each two that meet across a face between cells. What meets in edges and corners
-  /// follows: of the cells around an edge each shares a face with the next.
+  int sliceCount() const { return level_->grid.brickCounts.z; }
+  /// Calls visit(patch, patch) once for each two that meet across a face between cells, of a slice of cells with each
+  /// other and with the next slice. What meets in edges and corners follows: of the cells around an edge each shares a
+  /// face with the next.
   template <typename Visit>
-  void forEachMeeting(Visit visit) const;
+  void forEachMeetingInSlice(int z, Visit visit) const;
+  /// The same of one cell with the six beside it.
+  template <typename Visit>
+  void forEachMeetingOf(std::size_t cell, Visit visit) const;
 
 private:
   static constexpr std::size_t kFaceSamples = kBrickSamples * kBrickSamples;
@@ -71,16 +77,31 @@ private:
 };
 
 template <typename Visit>
-void PatchGraph::forEachMeeting(Visit visit) const {
+void PatchGraph::forEachMeetingInSlice(int z, Visit visit) const {
   const SampleGrid& grid = level_->grid;
-  const glm::ivec3 strides(1, grid.brickCounts.x, grid.brickCounts.x * grid.brickCounts.y);
-  std::size_t cell = 0;
-  grid.forEachCell([&](glm::ivec3 brick) {
-    for (glm::length_t axis = 0; axis < 3; ++axis)
-      if (brick[axis] + 1 < grid.brickCounts[axis])
-        meetAcrossFace(cell, cell + static_cast<std::size_t>(strides[axis]), axis, visit);
-    ++cell;
-  });
+  const auto stride = [&](glm::length_t axis) { return grid.cellOfBrick({axis == 0, axis == 1, axis == 2}); };
+  const std::array<std::size_t, 3> strides = {stride(0), stride(1), stride(2)};
+  std::size_t cell = grid.cellOfBrick({0, 0, z});
+  for (int y = 0; y < grid.brickCounts.y; ++y)
+    for (int x = 0; x < grid.brickCounts.x; ++x, ++cell) {
+      if (x + 1 < grid.brickCounts.x) meetAcrossFace(cell, cell + strides[0], 0, visit);
+      if (y + 1 < grid.brickCounts.y) meetAcrossFace(cell, cell + strides[1], 1, visit);
+      if (z + 1 < grid.brickCounts.z) meetAcrossFace(cell, cell + strides[2], 2, visit);
+    }
+}
+
+template <typename Visit>
+void PatchGraph::forEachMeetingOf(std::size_t cell, Visit visit) const {
+  const SampleGrid& grid = level_->grid;
+  const glm::ivec3 brick = grid.brickOfCell(cell);
+  for (glm::length_t axis = 0; axis < 3; ++axis)
+    for (const int side : {-1, 1}) {
+      glm::ivec3 beside = brick;
+      beside[axis] += side;
+      if (beside[axis] < 0 || beside[axis] >= grid.brickCounts[axis]) continue;
+      const std::size_t next = grid.cellOfBrick(beside);
+      meetAcrossFace(std::min(cell, next), std::max(cell, next), axis, visit);
+    }
 }
 
 template <typename Visit>

@@ -35,9 +35,11 @@ struct Ballot {
 std::vector<PatchSign> signsByRegion(const PatchGraph& graph, const InsideTest& test,
                                      const std::vector<std::uint8_t>& isVoter) {
   const std::uint32_t count = graph.patchCount();
-  DisjointSets regions(count);
-  graph.forEachMeeting([&](std::uint32_t a, std::uint32_t b) {
-    if (isVoter[a] && isVoter[b]) regions.unite(a, b);
+  SharedSets regions(count);
+  tbb::parallel_for(0, graph.sliceCount(), [&](int z) {
+    graph.forEachMeetingInSlice(z, [&](std::uint32_t a, std::uint32_t b) {
+      if (isVoter[a] && isVoter[b]) regions.unite(a, b);
+    });
   });
   std::vector<std::uint32_t> regionOfPatch(count), patchCounts(count, 0), seen(count, 0), voters;
   for (std::uint32_t patch = 0; patch < count; ++patch) {
@@ -145,11 +147,14 @@ private:
     for (std::uint32_t patch = 0; patch < graph_.patchCount(); ++patch)
       isMixed[patch] = graph_.exists(patch) && patchSigns_[patch] == PatchSign::Mixed;
     if (!test_.isConstantBetweenSurfaces())
-      graph_.forEachMeeting([&](std::uint32_t a, std::uint32_t b) {
-        if (patchSigns_[a] != patchSigns_[b] && patchSigns_[a] != PatchSign::Mixed &&
-            patchSigns_[b] != PatchSign::Mixed)
-          isMixed[a] = isMixed[b] = 1;
-      });
+      for (std::size_t cell = 0; cell < isSteady_.size(); ++cell) {
+        if (isSteady_[cell]) continue; // patches of steady cells that meet are of one region
+        graph_.forEachMeetingOf(cell, [&](std::uint32_t a, std::uint32_t b) {
+          if (patchSigns_[a] != patchSigns_[b] && patchSigns_[a] != PatchSign::Mixed &&
+              patchSigns_[b] != PatchSign::Mixed)
+            isMixed[a] = isMixed[b] = 1;
+        });
+      }
     std::vector<std::uint32_t> cells;
     for (std::uint32_t patch = 0; patch < graph_.patchCount(); ++patch)
       if (isMixed[patch]) cells.push_back(graph_.cellOf(patch));
