@@ -60,12 +60,14 @@ private:
     const SampleGrid& grid = request_.grid;
     const double radius = cube.radiusVoxels() * grid.voxelSize;
     const glm::dvec3 center = centerOf(cube);
-    std::optional<WindingAround> around;
-    if (near_) around = near_->around(center, radius);
     const double farthest = limitOf(cube);
     if (farthest <= 0) return;
+    std::optional<WindingAround> around;
+    if (near_) around = near_->around(center, radius);
     if (around && isFarFromMembranes(*around, glm::dvec3(0.0), radius, farthest)) return;
-    if (!request_.isComplete && cube.side > 2 && isSteady(center, radius + limit())) return;
+    // What is known of a larger ball is less: where this one's would not do, that cannot.
+    const bool mayBeSteady = !near_ || (around && around->leastFromHalf(glm::dvec3(0.0), radius + limit()) > 0);
+    if (!request_.isComplete && cube.side > 2 && mayBeSteady && isSteady(center, radius + limit())) return;
     if (cube.side > kWholeCube) {
       for (int i = 0; i < 8; ++i) look(cube.eighth(i));
       return;

@@ -83,12 +83,14 @@ void NearRims::addNear(const Rims& rims, const Rims::Loop& loop) {
     const std::size_t last = std::min(i, count);
     return (last < count ? rims.point(loop.begin + last / 4, last % 4) : rims.point(loop.end - 1, 4)) - center_;
   };
+  glm::dvec3 last = pointOf(0) / radius_;
   for (std::size_t first = 0; first < count; first += 8) {
     EdgeOct& oct = edges_.emplace_back();
     for (std::size_t i = 0; i < 9; ++i) {
-      const glm::dvec3 point = pointOf(first + i) / radius_;
+      const glm::dvec3 point = i > 0 ? pointOf(first + i) / radius_ : last;
       for (glm::length_t axis = 0; axis < 3; ++axis) oct.points[axis][i] = static_cast<float>(point[axis]);
-      if (i > 0) oct.lengths[i - 1] = static_cast<float>(glm::length(point - pointOf(first + i - 1) / radius_));
+      if (i > 0) oct.lengths[i - 1] = static_cast<float>(glm::length(point - last));
+      last = point;
     }
   }
 }
