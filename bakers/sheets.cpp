@@ -109,21 +109,22 @@ public:
   struct PlaceShare {
     double least = 0, lost = 0;
   };
-  /// Of one place of each triangle, nothing where it has fewer; by its back alone, or by both sides.
-  std::vector<PlaceShare> placeShares(const std::vector<std::uint32_t>& triangles, std::size_t number,
+  /// Of some places of each triangle together, nothing where it has fewer; by its back alone, or by both sides.
+  std::vector<PlaceShare> placeShares(const std::vector<std::uint32_t>& triangles, std::size_t first, std::size_t count,
                                       bool isBackEnough) {
     std::vector<PlaceShare> result(triangles.size());
     tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) {
       const std::uint32_t t = triangles[i];
       const TrianglePlaces places(soup_, request_, t);
-      if (number >= places.count()) return;
       const double share = 1.0 / static_cast<double>(places.count());
-      if (isBackEnough) {
-        const float turns = turnsAt(sideOf(t, number, false), places.behind(number));
-        result[i] = {share * std::clamp(static_cast<double>(turns), 0.0, 1.0), 0};
-      } else {
-        const double closure = closureAt(places, t, number);
-        result[i] = {share * closure, share * (1.0 - closure)};
+      for (std::size_t number = first; number < std::min(first + count, places.count()); ++number) {
+        if (isBackEnough) {
+          const float turns = turnsAt(sideOf(t, number, false), places.behind(number));
+          result[i].least += share * std::clamp(static_cast<double>(turns), 0.0, 1.0);
+        } else {
+          const double closure = closureAt(places, t, number);
+          result[i].least += share * closure, result[i].lost += share * (1.0 - closure);
+        }
       }
     });
     return result;
@@ -294,8 +295,10 @@ private:
     for (const std::uint32_t t : triangles) componentOf(t).lookedArea = componentOf(t).closedArea = 0;
     for (const std::uint32_t t : triangles) componentOf(t).lookedArea += soup_.areaOf(t);
     for (const std::uint32_t t : triangles) componentOf(t).mostClosedArea = componentOf(t).lookedArea;
-    for (std::size_t number = 0; number < kMostPlaces && !triangles.empty(); ++number) {
-      const std::vector<SheetJudge::PlaceShare> shares = judge_.placeShares(triangles, number, isBackEnough);
+    // Those that probably are solids take almost all of their places to be sure of.
+    const std::size_t step = isBackEnough ? kMostPlacesPerSide : 1;
+    for (std::size_t first = 0; first < kMostPlaces && !triangles.empty(); first += step) {
+      const std::vector<SheetJudge::PlaceShare> shares = judge_.placeShares(triangles, first, step, isBackEnough);
       for (std::size_t i = 0; i < triangles.size(); ++i) {
         Component& component = componentOf(triangles[i]);
         component.closedArea += soup_.areaOf(triangles[i]) * shares[i].least;
