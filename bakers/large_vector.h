@@ -1,9 +1,11 @@
 // Vectors of many elements: from two mebibytes on their memory is asked for in huge pages, since the first touch of
-// each page costs as much as a microsecond of work, and elements that need no making are left as memory comes.
+// each page costs as much as a microsecond of work or several; smaller ones ask for all of their pages at once.
+// Elements that need no making are left as memory comes.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <utility>
@@ -16,6 +18,7 @@
 namespace brickfield {
 
 inline constexpr std::size_t kHugePageBytes = std::size_t{2} << 20;
+inline constexpr std::size_t kSeveralPagesBytes = std::size_t{64} << 10; // fewer are touched as fast as asked for
 
 template <typename Element>
 struct LargeAllocator {
@@ -26,14 +29,23 @@ struct LargeAllocator {
   LargeAllocator(const LargeAllocator<Other>&) noexcept {}
 
   Element* allocate(std::size_t count) {
-    if (count > static_cast<std::size_t>(-1) / 2 / sizeof(Element)) throw std::bad_alloc();
+    if (count > static_cast<std::size_t>(-1) / 4 / sizeof(Element)) throw std::bad_alloc();
     const std::size_t bytes = count * sizeof(Element);
     const bool isLarge = bytes >= kHugePageBytes;
     const std::size_t step = isLarge ? kHugePageBytes : std::max(alignof(Element), alignof(std::max_align_t));
     void* memory = std::aligned_alloc(step, (bytes + step - 1) / step * step);
     if (!memory) throw std::bad_alloc();
 #if defined(__linux__)
-    if (isLarge) madvise(memory, (bytes + step - 1) / step * step, MADV_HUGEPAGE); // advice: it may be refused
+    // Advice: it may be refused.
+    if (isLarge) madvise(memory, (bytes + step - 1) / step * step, MADV_HUGEPAGE);
+#if defined(MADV_POPULATE_WRITE)
+    if (!isLarge && bytes >= kSeveralPagesBytes) {
+      constexpr std::uintptr_t kPageBytes = 4096;
+      const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(memory) / kPageBytes * kPageBytes;
+      const std::uintptr_t end = reinterpret_cast<std::uintptr_t>(memory) + bytes;
+      madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_WRITE);
+    }
+#endif
 #endif
     return static_cast<Element*>(memory);
   }
