@@ -49,7 +49,7 @@ struct March {
   // CONE, RAY
   float sure; // metres; free up to there
   float relaxed;
-  // DOWN, OUT, ASIDE; RAY: where and what the reading before was
+  // Where and what the reading before was; DOWN, OUT, ASIDE: see there
   float above; // the surface, metres
   float ball;  // metres, and its grain: the cone's first reading, or the one before
   float ballGrain;

@@ -73,6 +73,7 @@ MirroredSurface surfaceSeen(ReflectionHit hit, float width) {
 
 // Attributes of an object's bricks at a point; false: it has none, or is elsewhere.
 bool readNode(uint node, vec3 pointEye, out BrickAttributes found, out bool isUnlitThere) {
+  isUnlitThere = false;
   uint rows = nodeRows[node - 1u], first = rows & 0xffffffu;
   if (rows == NO_BRICKS) return false;
   uint end = min(first + min(rows >> 24, uint(MOST_ROWS)), frame.counts.x); // behind the objects lie bricks for light

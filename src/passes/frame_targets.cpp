@@ -67,7 +67,7 @@ void FrameTargets::fitTranslucency(bool isMade) {
 }
 
 void FrameTargets::fitReflections(bool isMade) {
-  if (!isMade) reflectionHit = {}, reflection = {};
+  if (!isMade) reflectionHit = {}, reflection = {}, reflectionList = WorkList("reflection_list");
   if (!isMade || reflection) return;
   reflectionHit = layer("reflection_hit", GL_RGBA32UI, size);
   reflection = layer("reflection", GL_RGBA16F, size);

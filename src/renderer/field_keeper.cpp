@@ -37,7 +37,11 @@ std::uint32_t tilesOf(const FieldWindow& window) {
 
 FieldKeeper::FieldKeeper(const Scene& scene, const SceneFields& fields, const ResidentScene& resident,
                          const FieldSettings& settings)
-    : scene_(&scene), resident_(&resident), settings_(settings), triangles_(scene, fields, resident) {
+    : scene_(&scene),
+      resident_(&resident),
+      settings_(settings),
+      triangles_(scene, fields, resident,
+                 settings.method == FieldMethod::Exact ? SmallHoles::Closed : SmallHoles::Open) {
   if (settings_.method == FieldMethod::Exact) {
     exact_.emplace(settings_.shape);
     return;

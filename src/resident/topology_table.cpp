@@ -56,13 +56,14 @@ std::uint32_t appendClosedFans(const SurfaceTopology& topology, std::vector<std:
 
 } // namespace
 
-TopologyTable::TopologyTable(const Scene& scene, const MeshPool& pool, const std::vector<bool>& isUsed)
+TopologyTable::TopologyTable(const Scene& scene, const MeshPool& pool, const std::vector<bool>& isUsed,
+                             SmallHoles holes)
     : meshes_(scene.meshes.size()) {
   std::vector<shared::TopologyRow> rows;
   std::vector<std::uint32_t> starts, corners;
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     if (!isUsed[m]) continue;
-    const SurfaceTopology topology = analyseSurface(scene.meshes[m]);
+    const SurfaceTopology topology = analyseSurface(scene.meshes[m], holes);
     if (rows.size() + topology.triangleCount() > kMostRows)
       throw Failure("world field: the scene's meshes have more than 2^28 triangles");
     meshes_[m] = {static_cast<std::uint32_t>(rows.size()), static_cast<std::uint32_t>(topology.triangleCount()),

@@ -6,6 +6,7 @@
 
 #include "gpu/buffer.h"
 #include "resident/mesh_pool.h"
+#include "scene/surface_topology.h"
 #include "shared/world_triangles_params.h"
 
 namespace brickfield {
@@ -23,7 +24,7 @@ public:
   /// isUsed  for each mesh whether it gets rows
   /// error   Failure: more than 2^28 rows
   /// cost    half a microsecond a triangle
-  TopologyTable(const Scene& scene, const MeshPool& pool, const std::vector<bool>& isUsed);
+  TopologyTable(const Scene& scene, const MeshPool& pool, const std::vector<bool>& isUsed, SmallHoles holes);
 
   const MeshRows& mesh(int index) const { return meshes_[static_cast<std::size_t>(index)]; }
   const Buffer& triangles() const { return triangles_; }

@@ -66,10 +66,11 @@ bool WorldTriangles::Placement::isSamePlace(const Placement& other) const {
          haveSameBits(morphWeights, other.morphWeights) && haveSameBits(worldFromBind, other.worldFromBind);
 }
 
-WorldTriangles::WorldTriangles(const Scene& scene, const SceneFields& fields, const ResidentScene& resident)
+WorldTriangles::WorldTriangles(const Scene& scene, const SceneFields& fields, const ResidentScene& resident,
+                               SmallHoles holes)
     : resident_(&resident),
       isSdf_(sdfNodes(scene, fields)),
-      topology_(scene, resident.meshes(), meshesOutsideFields(scene, isSdf_)),
+      topology_(scene, resident.meshes(), meshesOutsideFields(scene, isSdf_), holes),
       primitiveBounds_(scene.meshes.size()) {
   const std::vector<bool> isUsed = meshesOutsideFields(scene, isSdf_);
   for (std::size_t m = 0; m < isUsed.size(); ++m)

@@ -34,8 +34,10 @@ public:
 
   /// fields    nodes with a field are SDF objects: their meshes are left out
   /// resident  of the same scene; must outlive this
+  /// holes     with SmallHoles::Closed rows of caps follow those of their mesh, see analyseSurface
   /// error     Failure: more than 2^28 triangles in all meshes
-  WorldTriangles(const Scene& scene, const SceneFields& fields, const ResidentScene& resident);
+  WorldTriangles(const Scene& scene, const SceneFields& fields, const ResidentScene& resident,
+                 SmallHoles holes = SmallHoles::Closed);
 
   /// Lays out and lists the work for a pose that the resident scene has been given before.
   ///

@@ -188,6 +188,8 @@ void makeFans(SurfaceTopology& topology, UnionFind& corners) {
 
 /// Volume, area and size of a component, to tell solids from sheets whose two sides are one.
 struct Measure {
+  static constexpr double kLeastSolid = 1e-6, kMostThin = 0.02;
+
   bool isFine = true, isCappable = true;
   glm::dvec3 origin{0};
   double volume = 0, area = 0, size = 0;
@@ -200,8 +202,11 @@ struct Measure {
     area += glm::length(areaNormal) / 2;
     for (const glm::dvec3& point : p) size = std::max(size, glm::distance(point, origin));
   }
+  // Of tubes whose ends are a fiftieth of them 2 V / A is a fiftieth of their length, and of bent ones twice as much of
+  // their size; rooms are about as wide as they are long. Holes hardly count in the volume, which is positive outwards.
+  bool isThin() const { return volume > kLeastSolid * size * area && volume < kMostThin * size * area; }
   // A millionth of the size: ten times what rounding to float leaves of the thickness of a flat sheet.
-  bool isSolid() const { return isFine && std::abs(volume) > 1e-6 * size * area; }
+  bool isSolid() const { return isFine && std::abs(volume) > kLeastSolid * size * area; }
 };
 
 /// What the triangles of a mesh are made of, and how they hang together.
@@ -270,7 +275,7 @@ bool Analysis::closeHoles() {
   std::vector<RimEdge> rims;
   for (const OddEdge& edge : odd) {
     const std::uint32_t t = edge.use.triangle, component = topology.componentOf[t];
-    if (!measures[component].isCappable) continue;
+    if (!measures[component].isCappable || !measures[component].isThin()) continue;
     const std::size_t k = edge.use.edge, next = (k + 1) % 3;
     const std::uint32_t vertex = corners[t][next], primitive = keys.primitiveOf(vertex);
     rims.push_back({component, topology.vertices[t][next], topology.vertices[t][k], primitive,
@@ -295,10 +300,10 @@ bool Analysis::closeHoles() {
 
 } // namespace
 
-SurfaceTopology analyseSurface(const Mesh& mesh) {
+SurfaceTopology analyseSurface(const Mesh& mesh, SmallHoles holes) {
   Analysis analysis(mesh);
   analysis.connect();
-  if (analysis.closeHoles()) analysis.connect();
+  if (holes == SmallHoles::Closed && analysis.closeHoles()) analysis.connect();
   SurfaceTopology& topology = analysis.topology;
   for (const Measure& measure : analysis.measures) topology.isClosedComponent.push_back(measure.isSolid());
   makeFans(topology, analysis.cornerSets);

@@ -40,18 +40,23 @@ struct SurfaceTopology {
   }
 };
 
-/// Where all edges of a component have two uses but those around holes that are together no larger than a fiftieth of
-/// its surface, caps close it: less light than that comes to its inside, and as a sheet it would be thicker by half a
-/// texel to each side (a twig, of which only the ends are open).
+enum class SmallHoles { Open, Closed };
+
+/// With SmallHoles::Closed caps close what is thin and long, faces outwards, and has all edges used twice but those
+/// around holes that are together no larger than a fiftieth of its surface: a twig, of which only the ends are open. As
+/// a sheet it would be thicker by half a texel to each side. What is wide stays open, for things may stand within: a
+/// room with a window. All this of the mesh at rest, in object space; no transform or pose that widens a hole opens it
+/// again.
 ///
 /// Corners are one vertex where their rest positions are equal, their joints and weights (in any order) and the offsets
 /// of all morph targets too, and where edges connect their triangles: surfaces that only touch in a point have a vertex
 /// each there, so that its pseudonormal knows one fan.
 ///
 /// mesh    indices in range, as imported
-/// bound   holes of more than 256 edges, of several primitives or that no triangles of some height fill stay open
+/// bound   holes of more than 256 edges, of several primitives, or left with triangles of no height when the roundest
+///         corners are cut off first, stay open
 /// cost    nearly linear, one thread: half a microsecond a triangle
 /// proved by tests/unit/scene/surface_topology_test.cpp
-SurfaceTopology analyseSurface(const Mesh& mesh);
+SurfaceTopology analyseSurface(const Mesh& mesh, SmallHoles holes = SmallHoles::Closed);
 
 } // namespace brickfield

@@ -35,7 +35,9 @@ PassDeclaration MeshPass::declare() {
           {{Resource::FrameParams, Access::Uniform},
            {Resource::MeshVertices, Access::VertexFetch},
            {Resource::MeshDraws, Access::StorageRead}},
-          {{Resource::GBuffer, Access::Attachment}, {Resource::Depth, Access::Attachment}}};
+          {{Resource::GBuffer, Access::Attachment},
+           {Resource::Depth, Access::Attachment},
+           {Resource::Motion, Access::Attachment}}};
 }
 
 void MeshPass::draw(const FrameContext& context, const DrawRun& run) {

@@ -131,6 +131,62 @@ TEST_F(Taa, MotionVectorsAreThoseOfTheProjections) {
   }
 }
 
+// What no transform of its node tells is drawn: two instances of a node that move apart, and what was flat before; what
+// is mirrored now has a transform that does. One mesh for all.
+TEST_F(Taa, MotionVectorsOfInstancesAndOfWhatWasFlat) {
+  Scene built;
+  built.scenes.push_back({"scene", {}});
+  built.meshes.push_back(makeSphereMesh(0.3f, 16, 32));
+  for (int i = 0; i < 3; ++i) {
+    Node node;
+    node.name = "Node" + std::to_string(i);
+    node.mesh = 0;
+    built.nodes.push_back(node);
+    built.scenes[0].nodes.push_back(i);
+  }
+  const TestScene scene(std::move(built), "none");
+  const auto renderer = scene.makeRenderer(context().info(), withTaa());
+  const auto posed = [&](const std::vector<glm::mat4>& places) { // of node 0 twice, of the others once
+    Pose pose = scene.pose();
+    PosedInstance second = pose.instances[0];
+    second.instance = 1;
+    pose.instances.insert(pose.instances.begin() + 1, second);
+    for (std::size_t i = 0; i < places.size(); ++i) pose.instances[i].worldFromObject = places[i];
+    return pose;
+  };
+  const auto scaled = [](const glm::mat4& place, glm::vec3 scale) { return glm::scale(place, scale); };
+  const std::vector<glm::mat4> before{at(-1.2f, 0.5f, 0), at(-0.4f, 0.5f, 0), scaled(at(0.4f, 0.5f, 0), {1, 1, 0}),
+                                      at(-0.6f, -0.5f, 0)};
+  const std::vector<glm::mat4> after{at(-1.1f, 0.5f, 0), at(-0.4f, 0.6f, 0), at(0.5f, 0.5f, 0),
+                                     scaled(at(-0.6f, -0.4f, 0), {1, -1, 1})};
+  const View first = scene.view({0, 0.2f, 4}, {0, 0, 0}, kSize, 50);
+  View second = scene.view({0.05f, 0.2f, 4}, {0, 0, 0}, kSize, 50);
+  renderer->setPose(posed(before));
+  renderer->render(first);
+  renderer->setPose(posed(after));
+  renderer->render(second);
+  second.jitterNdc = 2.0f * taaJitter(1) / glm::vec2(kSize);
+  const FrameLayers frame = renderer->readLayers();
+  const std::vector<glm::vec2> motion = renderer->readMotion();
+  std::vector<double> worst(after.size(), 0), count(worst);
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    if (frame.id[i] < 0) continue;
+    const PrimaryRay ray = primaryRay(second, glm::vec2(i % kSize.x, i / kSize.x) + 0.5f);
+    const glm::dvec3 now = glm::dvec3(ray.originWorld) + double{frame.depth[i]} * glm::dvec3(ray.directionWorld);
+    const std::size_t number = frame.id[i] > 0 ? static_cast<std::size_t>(frame.id[i]) + 1 : now.x < -0.75 ? 0 : 1;
+    const glm::dmat4 thenFromNow = glm::dmat4(before[number]) * glm::inverse(glm::dmat4(after[number]));
+    const glm::dvec2 expected = pixelOf(second, now) - pixelOf(first, glm::dvec3(thenFromNow * glm::dvec4(now, 1.0)));
+    worst[number] =
+        std::max(worst[number], glm::length(glm::dvec2(motion[i]) - expected) - glm::length(expected) / 2048);
+    ++count[number];
+  }
+  for (std::size_t number = 0; number < worst.size(); ++number) {
+    std::printf("instance %zu: %.0f pixels, off by %.5f\n", number, count[number], worst[number]);
+    EXPECT_GT(count[number], 100);
+    EXPECT_LE(worst[number], 0.01);
+  }
+}
+
 double rmseOf(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {

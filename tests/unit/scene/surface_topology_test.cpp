@@ -1,5 +1,7 @@
 // What hangs together, what is closed, whatever order the triangles come in.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -223,6 +225,47 @@ TEST(SurfaceTopologyTest, EndsOfThinTubesAreClosed) {
   for (std::size_t i = 0; i < primitive.indices.size(); i += 3) add(&primitive.indices[i]);
   for (const SurfaceTopology::Cap& cap : topology.caps) add(cap.vertices.data());
   EXPECT_NEAR(volume, tubeVolume(1, 60, kSides), 1e-3);
+}
+
+/// Of revolution about z, open where the first and the last ring are.
+Mesh makeBottle(const std::vector<glm::vec2>& rings, std::uint32_t sides, bool isInwards) {
+  Mesh mesh;
+  Primitive& primitive = mesh.primitives.emplace_back();
+  for (const glm::vec2 ring : rings)
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const double turn = 2 * std::numbers::pi * i / sides;
+      primitive.positions.emplace_back(ring.x * std::cos(turn), ring.x * std::sin(turn), ring.y);
+    }
+  for (std::uint32_t r = 0; r + 1 < rings.size(); ++r)
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const std::uint32_t a = r * sides + i, b = r * sides + (i + 1) % sides, c = a + sides, d = b + sides;
+      if (isInwards)
+        primitive.indices.insert(primitive.indices.end(), {a, d, b, a, c, d});
+      else
+        primitive.indices.insert(primitive.indices.end(), {a, b, d, a, d, c});
+    }
+  return mesh;
+}
+
+// Their holes are a thousandth of their surface, but lamps and cameras may stand within.
+TEST(SurfaceTopologyTest, RoomsWithWindowsStayOpen) {
+  for (const bool isInwards : {false, true}) {
+    const SurfaceTopology room =
+        analyseSurface(makeBottle({{0.1f, -1}, {1, -0.9f}, {1, 0.9f}, {0.1f, 1}}, 16, isInwards));
+    expectConsistent(room);
+    EXPECT_TRUE(room.caps.empty());
+    EXPECT_EQ(closedCount(room), 0u);
+  }
+  EXPECT_TRUE(analyseSurface(makeBottle({{1, -60}, {1, 60}}, 16, true)).caps.empty()); // a tunnel, from within
+}
+
+// Who asks for the mesh as it is gets it so.
+TEST(SurfaceTopologyTest, HolesAreClosedOnlyOnRequest) {
+  const Mesh mesh = makeTubeMesh(1, 60, 12);
+  EXPECT_FALSE(analyseSurface(mesh).caps.empty());
+  const SurfaceTopology open = analyseSurface(mesh, SmallHoles::Open);
+  EXPECT_TRUE(open.caps.empty());
+  EXPECT_EQ(closedCount(open), 0u);
 }
 
 TEST(SurfaceTopologyTest, OtherHolesStayOpen) {
