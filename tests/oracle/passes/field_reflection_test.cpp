@@ -99,6 +99,15 @@ protected:
   }
 };
 
+// Of one reflection, by rays of the lobes.
+FrameLayers tracedMirrors(const TestScene& scene, const View& view, const Lighting& lighting, int samples) {
+  ReferenceRequest request;
+  request.scene = &scene.scene(), request.pose = &scene.pose();
+  request.view = &view, request.lighting = &lighting;
+  request.samples = samples, request.reflections = 1;
+  return traceReference(request);
+}
+
 // Pixels that differ from a mask and have no pixel of the other kind of it within `reach`.
 std::size_t countFar(const std::vector<int>& found, const std::vector<int>& expected, int reach) {
   std::size_t count = 0;
@@ -183,16 +192,12 @@ TEST_F(FieldReflection, AloneAFloorMirrorsTheSurroundings) {
     for (const glm::vec3 eye : {glm::vec3(1.4f, 0.9f, 1.6f), glm::vec3(2.4f, 0.15f, 0.3f)}) {
       const TestScene scene(floorScene(roughness), "none");
       const View view = scene.view(eye, glm::vec3(0), kSize, 50);
-      ReferenceRequest request;
-      request.scene = &scene.scene(), request.pose = &scene.pose();
-      request.view = &view, request.lighting = &lighting;
-      request.samples = 64, request.reflections = 1;
-      const FrameLayers truth = traceReference(request);
+      const FrameLayers truth = tracedMirrors(scene, view, lighting, 64);
+      RendererSettings off = reflecting(1);
+      off.reflections.method = ReflectionMethod::Off;
+      const FrameLayers without = draw(scene, view, lighting, off);
       for (const int scale : {1, 2}) {
-        RendererSettings off = reflecting(scale);
-        off.reflections.method = ReflectionMethod::Off;
-        const FrameLayers with = draw(scene, view, lighting, reflecting(scale)),
-                          without = draw(scene, view, lighting, off);
+        const FrameLayers with = draw(scene, view, lighting, reflecting(scale));
         double squares = 0, squaresWithout = 0;
         std::size_t count = 0;
         for (std::size_t i = 0; i < with.id.size(); ++i) {
@@ -363,11 +368,7 @@ TEST_F(FieldReflection, MirrorsACrowdAsTracedRaysDo) {
     const TestScene scene(std::move(built), "none");
     const View view = scene.view({1.2f, 1.0f, 2.6f}, {0, -0.9f, 0}, kSize, 50);
     const Lighting lighting = evenly(kAround);
-    ReferenceRequest request;
-    request.scene = &scene.scene(), request.pose = &scene.pose();
-    request.view = &view, request.lighting = &lighting;
-    request.samples = 128, request.reflections = 1;
-    const FrameLayers truth = traceReference(request);
+    const FrameLayers truth = tracedMirrors(scene, view, lighting, 128);
     RendererSettings off = reflecting(1);
     off.reflections.method = ReflectionMethod::Off;
     const auto errorOf = [&](const RendererSettings& settings) {
@@ -400,11 +401,7 @@ TEST_F(FieldReflection, WallsHideWhatIsBehindThem) {
     Lighting lighting = evenly(0);
     for (std::size_t y = 2; y < 4; ++y) // of the half before the camera the lower sky
       for (std::size_t x = 4; x < 12; ++x) lighting.environment.radiance[16 * y + x] = glm::vec3(8);
-    ReferenceRequest request;
-    request.scene = &scene.scene(), request.pose = &scene.pose();
-    request.view = &view, request.lighting = &lighting;
-    request.samples = 256, request.reflections = 1;
-    const FrameLayers truth = traceReference(request);
+    const FrameLayers truth = tracedMirrors(scene, view, lighting, 256);
     RendererSettings off = reflecting(1);
     off.reflections.method = ReflectionMethod::Off;
     const FrameLayers without = draw(scene, view, lighting, off);
@@ -429,8 +426,7 @@ TEST_F(FieldReflection, WallsHideWhatIsBehindThem) {
   }
 }
 
-// Stripes that are smooth and rough by turns before a black wall, and a table over them: as one mesh they mirror as
-// well as they do each alone.
+// Smooth stripes before a black wall mirror as well with rough ones between them as with gaps, of the same mesh all.
 TEST_F(FieldReflection, PartsOfLobesAreSharedWithinASurface) {
   const auto striped = [](bool hasRough) {
     Scene built;
@@ -462,11 +458,8 @@ TEST_F(FieldReflection, PartsOfLobesAreSharedWithinASurface) {
     const TestScene scene(striped(hasRough), "none");
     const View view = scene.view({0, 0.9f, 2}, {0, 0.1f, -0.2f}, kSize, 50);
     const Lighting lighting = evenly(1);
-    ReferenceRequest request;
-    request.scene = &scene.scene(), request.pose = &scene.pose();
-    request.view = &view, request.lighting = &lighting;
-    request.samples = 64, request.reflections = 1;
-    const FrameLayers truth = traceReference(request), layers = draw(scene, view, lighting, reflecting(scale));
+    const FrameLayers truth = tracedMirrors(scene, view, lighting, 64),
+                      layers = draw(scene, view, lighting, reflecting(scale));
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < truth.id.size(); ++i) {
