@@ -31,12 +31,15 @@ TEST(JobPool, OneThreadKeepsTheOrder) {
 TEST(JobPool, TwoThreadsWorkAtOnce) {
   if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one core";
   std::atomic<int> running{0}, most{0};
+  // Each waits for the other, however late a busy machine lets it begin.
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   runJobs(8, 2, [&](std::size_t) {
     const int now = ++running;
     int before = most;
     while (now > before && !most.compare_exchange_weak(before, now)) {
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    while (most < 2 && std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     --running;
   });
   EXPECT_EQ(most, 2);
