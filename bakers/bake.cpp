@@ -13,6 +13,7 @@
 
 #include "bakers/bake_memory.h"
 #include "bakers/band_bake.h"
+#include "bakers/job_pool.h"
 #include "bakers/level_baker.h"
 #include "bakers/mask_cut.h"
 #include "bakers/sheets.h"
@@ -291,22 +292,24 @@ private:
       request.thickness = &*thickness_;
       sampling.solidGrowthVoxels = kMostGrowthVoxels;
     }
+    sampling.keepsTriangles = attributes || request.thickness;
     sampling.isComplete = isComplete;
     sampling.admit = [&](std::size_t bricks) {
-      admitMemory(bricks, layout.levels[index], index);
+      admitMemory(bricks, layout.levels[index], index, request);
       progress.begin(bricks);
     };
     sampling.done = [&](std::size_t bricks) { progress.add(bricks); };
     return bakeLevel(request);
   }
 
-  void admitMemory(std::size_t bricks, const LevelLayout& layout, std::size_t index) {
+  void admitMemory(std::size_t bricks, const LevelLayout& layout, std::size_t index, const LevelBakeRequest& request) {
     BakeMemory::Level level;
     level.index = index, level.bricks = bricks;
     level.cells = static_cast<std::size_t>(layout.brickCounts.x) * static_cast<std::size_t>(layout.brickCounts.y) *
                   static_cast<std::size_t>(layout.brickCounts.z);
     level.surfaces = (surfaces_.solid ? 1 : 0) + (surfaces_.sheets ? 1 : 0);
-    level.hasAttributes = settings_.attributes;
+    level.hasAttributes = request.attributes != nullptr;
+    level.keepsTriangles = request.sampling.keepsTriangles, level.growsSolids = request.thickness != nullptr;
     memory_.admit(level);
   }
 
@@ -354,8 +357,7 @@ template <typename Work>
 auto bakeOnThreads(const BakeInput& input, const BakeSettings& settings, const Progress& progress, const Work& work) {
   checkSettings(settings);
   const auto start = std::chrono::steady_clock::now();
-  const int most = tbb::this_task_arena::max_concurrency(); // TBB warns on the console when asked for more
-  tbb::task_arena arena(settings.threads > 0 ? std::min(settings.threads, most) : most);
+  tbb::task_arena arena(threadsFor(settings.threads));
   auto result = arena.execute([&] {
     FieldBaker baker(input, settings, progress);
     return work(baker);

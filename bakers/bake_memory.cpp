@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bakers/large_vector.h"
 #include "core/error.h"
 #include "field/brick_layout.h"
 
@@ -15,15 +16,20 @@ namespace {
 
 // Measured: welded vertices, edges of the topology, hierarchies, moments for winding numbers; with a quarter to spare.
 constexpr std::uint64_t kBytesPerTriangle = 350;
-// Bounds, bricks, signs and patches of a cell, its corner among them.
-constexpr std::uint64_t kBytesPerCell = 24;
+// Bounds, bricks, signs, patches and their regions of a cell, steps to membranes.
+constexpr std::uint64_t kBytesPerCell = 40;
 
 std::uint64_t samplesOf(std::size_t bricks) { return std::uint64_t{bricks} * kBrickSampleCount; }
 
-/// Distance and triangle a sample and surface; patch and sign; growth of thin parts.
+/// Arrays with a value a sample: distances by surface and triangles where they are kept; signs, what is a sheet's,
+/// growth of thin parts; patches.
 std::uint64_t workBytes(const BakeMemory::Level& level) {
-  const std::uint64_t bytesPerSample = 8 * static_cast<std::uint64_t>(level.surfaces) + 3 + 4;
-  return samplesOf(level.bricks) * bytesPerSample + level.cells * kBytesPerCell;
+  const std::uint64_t samples = samplesOf(level.bricks);
+  const auto surfaces = static_cast<std::uint64_t>(level.surfaces);
+  std::uint64_t bytes = surfaces * largeVectorBytes(4 * samples) + largeVectorBytes(samples) + samples;
+  if (level.keepsTriangles) bytes += surfaces * largeVectorBytes(4 * samples) + largeVectorBytes(samples);
+  if (level.growsSolids) bytes += largeVectorBytes(4 * samples);
+  return bytes + level.cells * kBytesPerCell;
 }
 
 /// Code and attributes a sample, a word a cell.
@@ -58,7 +64,7 @@ void BakeMemory::admit(const Level& level) {
 std::uint64_t mostBakeBytes(int resolution, std::size_t triangles) {
   // The surface's box and a voxel around it, in bricks of seven voxels; the next levels are an eighth of it each.
   const auto bricks = static_cast<std::size_t>(std::pow((resolution + 2) / kBrickCells + 1, 3));
-  const BakeMemory::Level level{0, bricks, bricks, 2, true};
+  const BakeMemory::Level level{0, bricks, bricks, 2, true, true, true};
   return triangles * kBytesPerTriangle + workBytes(level) + resultBytes(level) * 8 / 7;
 }
 

@@ -18,7 +18,7 @@ public:
   struct Level {
     std::size_t index = 0, bricks = 0, cells = 0;
     int surfaces = 1; ///< solids, sheets or both
-    bool hasAttributes = false;
+    bool hasAttributes = false, keepsTriangles = false, growsSolids = false;
   };
   /// Counts a level in; those before it have left what they made.
   ///

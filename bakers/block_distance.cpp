@@ -36,12 +36,15 @@ struct BlockFrame {
 
 using Frames = std::array<BlockFrame, kMostBlockTriangles + 3>; // the last four are made together
 
-/// 512 of each; heights if they are asked for.
+/// 512 of each; triangles and heights if they are asked for.
 struct BlockResults {
   float* distances;
   std::uint32_t* nearest;
   float* heights;
 };
+
+/// What is told of samples besides distances.
+enum class BlockTells { Distances, Triangles, Heights };
 
 /// Places in the frames, for each of eight centres.
 struct EightPicks {
@@ -58,10 +61,11 @@ struct EightPicks {
 
 } // namespace
 
-void blockDistances(const BlockRequest& request, std::span<float, kBrickSampleCount> distances,
-                    std::span<std::uint32_t, kBrickSampleCount> nearest, BlockHeights* heights) {
+void blockDistances(const BlockRequest& request, std::span<float, kBrickSampleCount> distances, BlockTriangles* nearest,
+                    BlockHeights* heights) {
   Frames frames;
-  const BlockResults results{distances.data(), nearest.data(), heights ? heights->data() : nullptr};
+  const BlockResults results{distances.data(), nearest ? nearest->data() : nullptr,
+                             heights ? heights->data() : nullptr};
   BRICKFIELD_BEST_SIMD(measureBlock(request, frames.data(), results));
 }
 

@@ -36,11 +36,14 @@ struct BlockRequest {
 using BlockHeights = std::span<float, kBrickSampleCount>;
 inline constexpr float kClearVoxels = 1e-4f; // above the error of a block
 
+using BlockTriangles = std::span<std::uint32_t, kBrickSampleCount>;
+
 /// Results are voxels and triangles of the wanted samples; others get those, too, or infinity and kNoTriangle.
 ///
-/// heights    if given
+/// nearest    if given
+/// heights    if given, and then nearest, too
 /// proved by  tests/bake/bakers/band_bake_test.cpp
 void blockDistances(const BlockRequest& request, std::span<float, kBrickSampleCount> distances,
-                    std::span<std::uint32_t, kBrickSampleCount> nearest, BlockHeights* heights = nullptr);
+                    BlockTriangles* nearest = nullptr, BlockHeights* heights = nullptr);
 
 } // namespace brickfield

@@ -137,14 +137,14 @@ struct EightCubes {
   float apart, side; ///< from one to the next, and along each
 };
 
-/// The frames of a list that may be closest to a point of each cube, and no farther than `most_`. No point of a cube is
+/// The frames of a list that may be closest to a point of each cube, and no farther than `farthest`. No point of a cube is
 /// farther from its closest triangle than the farthest corner from any one, as the distance to a triangle is convex:
 /// from the one that is closest to the cube's centre.
 ///
 /// count, placeOf(i)  the list, ascending
 template <typename PlaceOf>
 WIDE_INLINE void pick(const BlockFrame* frames, std::size_t count, const PlaceOf& placeOf, const EightCubes& cubes,
-                      float most_, EightPicks& picks) {
+                      float farthest, EightPicks& picks) {
   Wide squares[kMostBlockTriangles];
   Wide nearest = wide(HUGE_VALF);
   WideMask nearestAt{};
@@ -156,7 +156,7 @@ WIDE_INLINE void pick(const BlockFrame* frames, std::size_t count, const PlaceOf
     nearest = least(nearest, squares[i]);
   }
   const float radius = kHalfDiagonal * cubes.side;
-  const Wide mostFromCenter = wide((most_ + radius + kPickSlackVoxels) * (most_ + radius + kPickSlackVoxels));
+  const Wide mostFromCenter = wide((farthest + radius + kPickSlackVoxels) * (farthest + radius + kPickSlackVoxels));
   Wide farthestCorners{};
   for (unsigned reached = bitsOf(nearest <= mostFromCenter); reached != 0; reached &= reached - 1) {
     const int lane = std::countr_zero(reached);
@@ -165,7 +165,7 @@ WIDE_INLINE void pick(const BlockFrame* frames, std::size_t count, const PlaceOf
     const Wide ofCorners = frameDistances(nearestFrame, {corner, cubes.side}).squared;
     farthestCorners[lane] = largestOf(ofCorners);
   }
-  const Wide reach = least(rootOf(farthestCorners), wide(most_)) + wide(radius + kPickSlackVoxels);
+  const Wide reach = least(rootOf(farthestCorners), wide(farthest)) + wide(radius + kPickSlackVoxels);
   const Wide reachSquared = reach * reach;
   std::array<std::size_t, 8> counts{};
   for (std::size_t i = 0; i < count; ++i) {
@@ -190,31 +190,35 @@ WIDE_INLINE std::array<std::size_t, 8> samplesFrom(glm::ivec3 first) {
 }
 
 /// The 2^3 samples from a sample on.
-template <bool kWithHeights>
+template <BlockTells kTells>
 WIDE_INLINE void measureEight(const BlockRequest& request, const BlockFrame* frames,
                               std::span<const std::uint16_t> picked, glm::ivec3 first, const BlockResults& results) {
   const EightPoints points{glm::vec3(first) - kHalfBrick, 1.0f};
-  Wide best = wide(request.most * request.most), height = wide(HUGE_VALF), inward = wide(0.0f);
+  const Wide farthest = wide(request.most * request.most);
+  Wide best = farthest, height = wide(HUGE_VALF), inward = wide(0.0f);
   WideMask bestPlace{-1, -1, -1, -1, -1, -1, -1, -1};
   for (const std::uint16_t place : picked) {
     const FrameDistances found = frameDistances<true>(frames[place], points);
-    const WideMask isNearer = found.squared < best;
-    const std::int32_t p = place;
+    if constexpr (kTells != BlockTells::Distances) {
+      const WideMask isNearer = found.squared < best;
+      const std::int32_t p = place;
+      bestPlace = isNearer ? WideMask{p, p, p, p, p, p, p, p} : bestPlace;
+      if constexpr (kTells == BlockTells::Heights)
+        height = isNearer ? found.height : height, inward = isNearer ? found.inward : inward;
+    }
     best = least(found.squared, best);
-    bestPlace = isNearer ? WideMask{p, p, p, p, p, p, p, p} : bestPlace;
-    if constexpr (kWithHeights) height = isNearer ? found.height : height, inward = isNearer ? found.inward : inward;
   }
-  best = rootOf(best);
+  best = best < farthest ? rootOf(best) : wide(HUGE_VALF);
   float roots[8], heights[8];
   std::int32_t places[8];
   std::memcpy(roots, &best, sizeof(roots));
-  std::memcpy(places, &bestPlace, sizeof(places));
   const std::array<std::size_t, 8> samples = samplesFrom(first);
-  for (std::size_t i = 0; i < 8; ++i) {
-    results.distances[samples[i]] = places[i] < 0 ? HUGE_VALF : roots[i];
+  for (std::size_t i = 0; i < 8; ++i) results.distances[samples[i]] = roots[i];
+  if constexpr (kTells == BlockTells::Distances) return;
+  std::memcpy(places, &bestPlace, sizeof(places));
+  for (std::size_t i = 0; i < 8; ++i)
     results.nearest[samples[i]] = places[i] < 0 ? kNoTriangle : request.triangles[static_cast<std::size_t>(places[i])];
-  }
-  if constexpr (kWithHeights) {
+  if constexpr (kTells == BlockTells::Heights) {
     const WideMask isClear = (inward > wide(kClearVoxels)) & (most(height, wide(0.0f) - height) > wide(kClearVoxels));
     height = isClear ? height : wide(HUGE_VALF);
     std::memcpy(heights, &height, sizeof(heights));
@@ -230,7 +234,7 @@ bool isAnyWanted(const BlockRequest& request, glm::ivec3 first) {
 }
 
 /// The eights of an eighth from a sample on, each by its triangles of those around the eighth.
-template <bool kWithHeights>
+template <BlockTells kTells>
 WIDE_INLINE void measureEighth(const BlockRequest& request, const BlockFrame* frames,
                                std::span<const std::uint16_t> here, glm::ivec3 origin, const BlockResults& results) {
   EightPicks picks;
@@ -242,13 +246,13 @@ WIDE_INLINE void measureEighth(const BlockRequest& request, const BlockFrame* fr
     const glm::ivec3 first = origin + 2 * glm::ivec3(s & 1, s >> 1 & 1, s >> 2);
     const std::span<const std::uint16_t> picked = picks.of(eight);
     if (!picked.empty() && isAnyWanted(request, first))
-      measureEight<kWithHeights>(request, frames, picked, first, results);
+      measureEight<kTells>(request, frames, picked, first, results);
   }
 }
 
 void measureBlock(const BlockRequest& request, BlockFrame* frames, const BlockResults& results) {
   std::fill_n(results.distances, kBrickSampleCount, HUGE_VALF);
-  std::fill_n(results.nearest, kBrickSampleCount, kNoTriangle);
+  if (results.nearest) std::fill_n(results.nearest, kBrickSampleCount, kNoTriangle);
   if (results.heights) std::fill_n(results.heights, kBrickSampleCount, HUGE_VALF);
   const std::size_t count = request.triangles.size();
   for (std::size_t i = 0; i < count; i += 4) setFrames(frames, i, request);
@@ -261,9 +265,11 @@ void measureBlock(const BlockRequest& request, BlockFrame* frames, const BlockRe
     const std::span<const std::uint16_t> here = ofEighths.of(eighth);
     if (here.empty()) continue;
     if (results.heights)
-      measureEighth<true>(request, frames, here, origin, results);
+      measureEighth<BlockTells::Heights>(request, frames, here, origin, results);
+    else if (results.nearest)
+      measureEighth<BlockTells::Triangles>(request, frames, here, origin, results);
     else
-      measureEighth<false>(request, frames, here, origin, results);
+      measureEighth<BlockTells::Distances>(request, frames, here, origin, results);
   }
 }
 

@@ -65,18 +65,16 @@ float SurfaceSampler::finish(glm::dvec3 point, NearestTriangle nearest) const {
   return static_cast<float>(slabs->distance(point, closest, halfThickness) / grid.voxelSize);
 }
 
-/// A brick out of reach of all triangles. The first sample names one.
+/// A brick out of reach of all triangles. The first sample names one if that is asked for.
 void SurfaceSampler::runFar(glm::ivec3 brick, const SampleRows& wanted, float* distances,
                             std::uint32_t* triangles) const {
   const auto row = static_cast<std::size_t>(
       std::find_if(wanted.begin(), wanted.end(), [](std::uint8_t samples) { return samples != 0; }) - wanted.begin());
-  if (row == wanted.size()) return;
-  const std::size_t first = kBrickSamples * row + static_cast<std::size_t>(std::countr_zero(wanted[row]));
-  const glm::dvec3 point = grid.sample(brick, sampleOfIndex(first));
-  const NearestTriangle nearest = surface.nearest(point);
   std::fill_n(distances, kSamples, static_cast<float>(kSampledRangeVoxels));
+  if (row == wanted.size() || !triangles) return;
+  const std::size_t first = kBrickSamples * row + static_cast<std::size_t>(std::countr_zero(wanted[row]));
+  const NearestTriangle nearest = surface.nearest(grid.sample(brick, sampleOfIndex(first)));
   std::fill_n(triangles, kSamples, nearest.triangle);
-  distances[first] = finish(point, nearest);
 }
 
 /// returns false where there are too many triangles
@@ -96,25 +94,27 @@ bool SurfaceSampler::runBlock(glm::ivec3 brick, const SampleRows& wanted, float*
   BlockHeights heightsOf(heights);
   const std::span<const std::uint32_t> around(near.data(), count);
   const SampleBlock block{grid.brickCenter(brick), grid.voxelSize};
-  blockDistances({&surface.hierarchy().soup(), around, block, wanted, static_cast<float>(capVoxels())}, found, nearest,
-                 slabs && !slabs->areAllCentred() ? &heightsOf : nullptr);
+  BlockTriangles nearestOf(nearest);
+  const bool areCentred = slabs && slabs->areAllCentred();
+  const bool areAlike = !slabs || (areCentred && !slabs->hasPieces()); // whichever triangle is closest
+  blockDistances({&surface.hierarchy().soup(), around, block, wanted, static_cast<float>(capVoxels())}, found,
+                 triangles || !areAlike ? &nearestOf : nullptr, slabs && !areCentred ? &heightsOf : nullptr);
   const double halfVoxels = halfThickness / grid.voxelSize;
   std::uint32_t last = near[0];
-  if (!slabs) { // samples that nothing is near are infinitely far here
-    for (std::size_t i = 0; i < kSamples; ++i) {
-      last = nearest[i] != kNoTriangle ? nearest[i] : last;
-      triangles[i] = last;
-    }
-    for (std::size_t i = 0; i < kSamples; ++i) {
-      const float voxels = onOrOff(found[i]);
-      distances[i] =
-          voxels < static_cast<float>(kSampledRangeVoxels) ? voxels : static_cast<float>(kSampledRangeVoxels);
-    }
+  for (std::size_t i = 0; triangles && i < kSamples; ++i) {
+    last = nearest[i] != kNoTriangle ? nearest[i] : last;
+    triangles[i] = last;
+  }
+  if (!slabs || areCentred) { // samples that nothing is near are infinitely far here
+    if (slabs)
+      slabs->centreDistances(found, areAlike ? nullptr : nearest.data(), halfVoxels);
+    else
+      for (float& voxels : found) voxels = onOrOff(voxels);
+    const auto range = static_cast<float>(kSampledRangeVoxels);
+    for (std::size_t i = 0; i < kSamples; ++i) distances[i] = found[i] < range ? found[i] : range;
     return true;
   }
   forEachWanted(wanted, [&](std::size_t i) {
-    if (nearest[i] != kNoTriangle) last = nearest[i];
-    triangles[i] = last;
     if (nearest[i] == kNoTriangle)
       distances[i] = static_cast<float>(kSampledRangeVoxels);
     else if (!slabs->isBehind(nearest[i]))
@@ -138,8 +138,8 @@ void SurfaceSampler::runWalks(glm::ivec3 brick, const SampleRows& wanted, float*
     if (!isWanted(wanted, i)) continue;
     const glm::ivec3 index = sampleOfIndex(i);
     const glm::dvec3 point = grid.sample(brick, index);
-    // The very first is not capped, so that there always is a triangle to name.
-    double limit = isCapped && last != kNoTriangle ? cap : HUGE_VAL;
+    // Where triangles are to be named the very first is not capped, so that there always is one.
+    double limit = isCapped && (last != kNoTriangle || !triangles) ? cap : HUGE_VAL;
     const float before = leastBefore(found, index.x, index.y, index.z);
     limit = std::min(limit, static_cast<double>(before + 1.0f + kBoundSlackVoxels) * grid.voxelSize);
     const NearestTriangle nearest =
@@ -148,8 +148,9 @@ void SurfaceSampler::runWalks(glm::ivec3 brick, const SampleRows& wanted, float*
       last = nearest.triangle, start = nearest.leaf;
       found[i] = static_cast<float>(nearest.distance / grid.voxelSize);
     }
-    triangles[i] = last;
+    if (triangles) triangles[i] = last;
     distances[i] = finish(point, nearest);
+    if (isCapped) distances[i] = std::min(distances[i], static_cast<float>(kSampledRangeVoxels));
   }
 }
 

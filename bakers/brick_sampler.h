@@ -26,7 +26,7 @@ struct SurfaceSampler {
 
   /// wanted     other samples are left as they are, or get anything
   /// distances  512 of the brick, in voxels; the range where beyond it and capped
-  /// triangles  the closest ones, or some of the brick's where beyond the range
+  /// triangles  if given: the closest ones, or some of the brick's where beyond the range
   /// proved by  tests/bake/bakers/band_bake_test.cpp
   void run(glm::ivec3 brick, const SampleRows& wanted, float* distances, std::uint32_t* triangles) const;
 

@@ -11,6 +11,11 @@
 
 namespace brickfield {
 
+int threadsFor(int threads) {
+  const int most = tbb::this_task_arena::max_concurrency();
+  return threads > 0 ? std::min(threads, most) : most;
+}
+
 void runJobs(std::size_t count, int threads, const std::function<void(std::size_t)>& job) {
   std::atomic<std::size_t> next{0};
   std::atomic<bool> hasFailed{false};
@@ -25,8 +30,7 @@ void runJobs(std::size_t count, int threads, const std::function<void(std::size_
       }
     }
   };
-  const int most = tbb::this_task_arena::max_concurrency(); // TBB warns on the console when asked for more
-  const int lanes = threads > 0 ? std::min(threads, most) : most;
+  const int lanes = threadsFor(threads);
   tbb::task_arena arena(lanes);
   arena.execute([&] {
     tbb::parallel_for(

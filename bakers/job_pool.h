@@ -1,10 +1,15 @@
-// Several bakes at once. Each still spreads over all threads that the others leave idle.
+// Threads of bakes, several at once: each still spreads over all threads that the others leave idle.
 #pragma once
 
 #include <cstddef>
 #include <functional>
 
 namespace brickfield {
+
+/// As many threads as asked for, but no more than there are: TBB would warn on the console.
+///
+/// threads  0: all
+int threadsFor(int threads);
 
 /// Calls job(0) to job(count - 1), begun in this order, on as many threads; returns when all have ended.
 ///

@@ -1,4 +1,4 @@
-// Vectors of many elements: from two mebibytes on their memory is asked for in huge pages, since the first touch of
+// Vectors of many elements: from a mebibyte on their memory is asked for in huge pages, since the first touch of
 // each page costs as much as a microsecond of work or several; smaller ones ask for all of their pages at once.
 // Elements that need no making are left as memory comes.
 #pragma once
@@ -18,7 +18,14 @@
 namespace brickfield {
 
 inline constexpr std::size_t kHugePageBytes = std::size_t{2} << 20;
+inline constexpr std::size_t kMostlyHugePageBytes = kHugePageBytes / 2;  // worth a whole one
 inline constexpr std::size_t kSeveralPagesBytes = std::size_t{64} << 10; // fewer are touched as fast as asked for
+
+/// What so many bytes take of memory.
+inline std::size_t largeVectorBytes(std::size_t bytes) {
+  const bool isHuge = bytes >= kMostlyHugePageBytes;
+  return isHuge ? (bytes + kHugePageBytes - 1) / kHugePageBytes * kHugePageBytes : bytes;
+}
 
 template <typename Element>
 struct LargeAllocator {
@@ -31,7 +38,7 @@ struct LargeAllocator {
   Element* allocate(std::size_t count) {
     if (count > static_cast<std::size_t>(-1) / 4 / sizeof(Element)) throw std::bad_alloc();
     const std::size_t bytes = count * sizeof(Element);
-    const bool isLarge = bytes >= kHugePageBytes;
+    const bool isLarge = bytes >= kMostlyHugePageBytes;
     const std::size_t step = isLarge ? kHugePageBytes : std::max(alignof(Element), alignof(std::max_align_t));
     void* memory = std::aligned_alloc(step, (bytes + step - 1) / step * step);
     if (!memory) throw std::bad_alloc();

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
+#include "bakers/each_uneven.h"
 #include "bakers/float4.h"
 #include "bakers/membranes.h"
 #include "bakers/patch_graph.h"
@@ -27,41 +29,68 @@ constexpr double kCoatSlackVoxels = 1e-3; // layers nearer than this count as on
 struct SignedSamples {
   LargeVector<float> distances;
   LargeVector<std::uint32_t> triangles;
-  std::vector<std::uint8_t> isSheet; ///< 1 where the distance is a slab's
+  LargeVector<std::uint8_t> isSheet; ///< 1 where the distance is a slab's; if triangles are kept
 };
 
-/// growth  a sample, in voxels: how far solids are moved outwards; empty: nowhere
-SignedSamples combine(LevelSamples& level, const LargeVector<std::uint8_t>& sampleInside,
-                      const LargeVector<float>& growth) {
-  const std::size_t count = std::max(level.solidDistances.size(), level.sheetDistances.size());
-  if (level.solidDistances.empty())
-    return {std::move(level.sheetDistances), std::move(level.sheetTriangles), std::vector<std::uint8_t>(count, 1)};
-  SignedSamples result{std::move(level.solidDistances), std::move(level.solidTriangles),
-                       std::vector<std::uint8_t>(count, 0)};
-  // A loop for each step, without branches.
-  tbb::parallel_for(std::size_t{0}, count / kSamples, [&](std::size_t b) {
+/// Makes one of solids and sheets, brick by brick.
+class SampleUnion {
+public:
+  /// level   its arrays are taken
+  /// growth  a sample, in voxels: how far solids are moved outwards; empty: nowhere
+  SampleUnion(LevelSamples& level, const LargeVector<std::uint8_t>& sampleInside, const LargeVector<float>& growth)
+      : sampleInside_(sampleInside), growth_(growth), hasSolids_(!level.solidDistances.empty()) {
+    if (!hasSolids_) {
+      result_.isSheet.assign(level.sheetTriangles.size(), 1);
+      result_.distances = std::move(level.sheetDistances), result_.triangles = std::move(level.sheetTriangles);
+      return;
+    }
+    result_.isSheet.assign(level.solidTriangles.size(), 0);
+    result_.distances = std::move(level.solidDistances), result_.triangles = std::move(level.solidTriangles);
+    sheetDistances_ = std::move(level.sheetDistances), sheetTriangles_ = std::move(level.sheetTriangles);
+  }
+
+  /// Once for each brick, from any thread. A loop for each step, without branches.
+  ///
+  /// returns  512 signed distances, in voxels
+  const float* unite(std::size_t b) {
     const std::size_t begin = b * kSamples;
-    float* distances = &result.distances[begin];
-    const std::uint8_t* inside = &sampleInside[begin];
+    float* distances = &result_.distances[begin];
+    if (!hasSolids_) return distances;
+    const std::uint8_t* inside = &sampleInside_[begin];
     for (std::size_t i = 0; i < kSamples; ++i) distances[i] = inside[i] ? -distances[i] : distances[i];
-    if (!growth.empty())
-      for (std::size_t i = 0; i < kSamples; ++i) distances[i] -= growth[begin + i];
-    if (level.sheetDistances.empty()) return;
-    const float* sheetDistances = &level.sheetDistances[begin];
+    if (!growth_.empty())
+      for (std::size_t i = 0; i < kSamples; ++i) distances[i] -= growth_[begin + i];
+    if (!sheetDistances_.empty()) addSheets(begin);
+    return distances;
+  }
+  SignedSamples take() { return std::move(result_); }
+
+private:
+  void addSheets(std::size_t begin) {
+    float* distances = &result_.distances[begin];
+    const float* sheetDistances = &sheetDistances_[begin];
     const float leastSheet = leastOf(sheetDistances, kSamples, [](Float4 v) { return v; });
     const float mostSolid = -leastOf(distances, kSamples, [](Float4 v) { return -v; });
     if (leastSheet >= mostSolid) return;
-    const std::uint32_t* sheetTriangles = &level.sheetTriangles[begin];
-    std::uint32_t* triangles = &result.triangles[begin];
-    std::uint8_t* isSheet = &result.isSheet[begin];
-    for (std::size_t i = 0; i < kSamples; ++i) isSheet[i] = sheetDistances[i] < distances[i];
-    for (std::size_t i = 0; i < kSamples; ++i) {
-      triangles[i] = sheetDistances[i] < distances[i] ? sheetTriangles[i] : triangles[i];
-      distances[i] = sheetDistances[i] < distances[i] ? sheetDistances[i] : distances[i];
+    if (!sheetTriangles_.empty()) {
+      const std::uint32_t* sheetTriangles = &sheetTriangles_[begin];
+      std::uint32_t* triangles = &result_.triangles[begin];
+      std::uint8_t* isSheet = &result_.isSheet[begin];
+      for (std::size_t i = 0; i < kSamples; ++i) isSheet[i] = sheetDistances[i] < distances[i];
+      for (std::size_t i = 0; i < kSamples; ++i)
+        triangles[i] = sheetDistances[i] < distances[i] ? sheetTriangles[i] : triangles[i];
     }
-  });
-  return result;
-}
+    for (std::size_t i = 0; i < kSamples; ++i)
+      distances[i] = sheetDistances[i] < distances[i] ? sheetDistances[i] : distances[i];
+  }
+
+  const LargeVector<std::uint8_t>& sampleInside_;
+  const LargeVector<float>& growth_;
+  bool hasSolids_;
+  SignedSamples result_;
+  LargeVector<float> sheetDistances_;
+  LargeVector<std::uint32_t> sheetTriangles_;
+};
 
 void fillIndirection(BrickLevel& level, const LevelSamples& samples, const LevelSigns& signs) {
   for (std::size_t cell = 0; cell < samples.brickOfCell.size(); ++cell) {
@@ -72,26 +101,33 @@ void fillIndirection(BrickLevel& level, const LevelSamples& samples, const Level
   }
 }
 
-void encodeDistances(BrickLevel& level, const SignedSamples& samples, std::size_t brickCount) {
-  level.distances.resize(brickCount * kSamples * bytesPerSample(level.format));
-  tbb::parallel_for(std::size_t{0}, brickCount, [&](std::size_t b) {
-    std::array<float, kSamples> distancesObject;
-    for (std::size_t i = 0; i < kSamples; ++i)
-      distancesObject[i] = samples.distances[b * kSamples + i] * level.voxelSizeObject;
-    writeBrickDistances(level, static_cast<std::uint32_t>(b), distancesObject);
-  });
+void encodeBrick(BrickLevel& level, std::size_t b, const float* voxels) {
+  std::array<float, kSamples> distancesObject;
+  for (std::size_t i = 0; i < kSamples; ++i) distancesObject[i] = voxels[i] * level.voxelSizeObject;
+  writeBrickDistances(level, static_cast<std::uint32_t>(b), distancesObject);
 }
 
 BrickLevel packLevel(const LevelBakeRequest& request, const LevelSamples& samples, const LevelSigns& signs,
-                     const SignedSamples& signedSamples) {
-  const bool isComplete = request.sampling.isComplete;
-  float range = kNarrowBandVoxels;
-  if (isComplete)
-    for (const float distance : signedSamples.distances)
-      range = std::max(range, rangeVoxelsWithoutClamp(std::abs(distance)));
-  BrickLevel level = makeLevel(request.layout, isComplete ? DistanceFormat::R16Snorm : request.format, range);
+                     SampleUnion& united) {
+  const std::size_t bricks = samples.brickCount();
+  BrickLevel level = makeLevel(request.layout, request.format, kNarrowBandVoxels);
+  if (!request.sampling.isComplete) {
+    level.distances.resize(bricks * kSamples * bytesPerSample(level.format));
+    tbb::parallel_invoke(
+        [&] { fillIndirection(level, samples, signs); },
+        [&] { forEachUneven(bricks, 8, [&](std::size_t b) { encodeBrick(level, b, united.unite(b)); }); });
+    return level;
+  }
+  // The range is that of the farthest sample.
+  level.format = DistanceFormat::R16Snorm;
+  level.distances.resize(bricks * kSamples * bytesPerSample(level.format));
+  std::vector<const float*> voxels(bricks);
+  forEachUneven(bricks, 8, [&](std::size_t b) { voxels[b] = united.unite(b); });
+  for (const float* ofBrick : voxels)
+    for (std::size_t i = 0; i < kSamples; ++i)
+      level.rangeVoxels = std::max(level.rangeVoxels, rangeVoxelsWithoutClamp(std::abs(ofBrick[i])));
   fillIndirection(level, samples, signs);
-  encodeDistances(level, signedSamples, samples.brickCount());
+  forEachUneven(bricks, 8, [&](std::size_t b) { encodeBrick(level, b, voxels[b]); });
   return level;
 }
 
@@ -205,8 +241,9 @@ BrickLevel bakeLevel(const LevelBakeRequest& request) {
   BrickLevel level;
   {
     const StageClock clock(seconds.packing);
-    signedSamples = combine(samples, signs.sampleInside, growth);
-    level = packLevel(request, samples, signs, signedSamples);
+    SampleUnion united(samples, signs.sampleInside, growth);
+    level = packLevel(request, samples, signs, united);
+    signedSamples = united.take();
   }
   if (request.attributes) {
     const StageClock clock(seconds.attributes);

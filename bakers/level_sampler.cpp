@@ -8,9 +8,11 @@
 #include <cstring>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include "bakers/brick_sampler.h"
 #include "bakers/cell_bounds.h"
+#include "bakers/each_uneven.h"
 #include "bakers/float4.h"
 
 namespace brickfield {
@@ -22,7 +24,7 @@ constexpr std::size_t kSamples = kBrickSampleCount;
 constexpr double kFaceHalfDiagonalVoxels = 0.70710679;
 constexpr double kBoundSlackVoxels = 1e-3; // over the rounding of double and of the float that stores the bound
 
-/// Where a brick's samples go; nothing for a surface that there is not.
+/// Where a brick's samples go; nothing for a surface that there is not, and for triangles that are not kept.
 struct BrickPlaces {
   float *solidDistances, *sheetDistances;
   std::uint32_t *solidTriangles, *sheetTriangles;
@@ -125,7 +127,7 @@ public:
   /// returns the least distance of each candidate's samples to a surface, in voxels
   std::vector<float> run() {
     std::atomic<std::uint64_t> queries = 0;
-    tbb::parallel_for(std::size_t{0}, candidates_.size(), [&](std::size_t slot) {
+    forEachUneven(candidates_.size(), 2, [&](std::size_t slot) {
       const glm::ivec3 brick = request_.grid.brickOfCell(candidates_[slot]);
       const SampleRows rows = SharedSamples(request_.grid, slotOfCell_, brick).ownRows();
       std::uint64_t count = 0;
@@ -160,10 +162,10 @@ private:
             else // of the samples between two sides
               std::memcpy(values + sample, ofOwner + ownerSample, (kBrickSamples - 2) * sizeof(*values));
           };
-          if (to.solidDistances)
-            copyRow(to.solidDistances, from.solidDistances), copyRow(to.solidTriangles, from.solidTriangles);
-          if (to.sheetDistances)
-            copyRow(to.sheetDistances, from.sheetDistances), copyRow(to.sheetTriangles, from.sheetTriangles);
+          if (to.solidDistances) copyRow(to.solidDistances, from.solidDistances);
+          if (to.sheetDistances) copyRow(to.sheetDistances, from.sheetDistances);
+          if (to.solidTriangles) copyRow(to.solidTriangles, from.solidTriangles);
+          if (to.sheetTriangles) copyRow(to.sheetTriangles, from.sheetTriangles);
         });
   }
   float leastDistance(std::size_t slot) {
@@ -184,21 +186,21 @@ private:
 };
 
 /// Copies a brick's samples to a slot of the level's arrays.
-void putBrick(const SamplingRequest& request, std::size_t slot, const BrickSamples& samples, LevelSamples& level) {
+void putBrick(std::size_t slot, const BrickSamples& samples, LevelSamples& level) {
   const auto put = [slot](const auto& from, auto& to) {
-    std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(slot * kSamples));
+    if (!to.empty()) std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(slot * kSamples));
   };
-  if (request.surfaces->solid)
-    put(samples.solidDistances, level.solidDistances), put(samples.solidTriangles, level.solidTriangles);
-  if (request.surfaces->sheets)
-    put(samples.sheetDistances, level.sheetDistances), put(samples.sheetTriangles, level.sheetTriangles);
+  put(samples.solidDistances, level.solidDistances), put(samples.solidTriangles, level.solidTriangles);
+  put(samples.sheetDistances, level.sheetDistances), put(samples.sheetTriangles, level.sheetTriangles);
 }
 
 void resizeBricks(const SamplingRequest& request, std::size_t count, LevelSamples& level) {
-  if (request.surfaces->solid)
-    level.solidDistances.resize(count * kSamples), level.solidTriangles.resize(count * kSamples);
-  if (request.surfaces->sheets)
-    level.sheetDistances.resize(count * kSamples), level.sheetTriangles.resize(count * kSamples);
+  const std::size_t samples = count * kSamples;
+  if (request.surfaces->solid) level.solidDistances.resize(samples);
+  if (request.surfaces->sheets) level.sheetDistances.resize(samples);
+  if (!request.keepsTriangles) return;
+  level.solidTriangles.resize(level.solidDistances.size());
+  level.sheetTriangles.resize(level.sheetDistances.size());
 }
 
 template <typename Value>
@@ -218,10 +220,9 @@ void dropBricks(LevelSamples& level, const std::vector<std::uint32_t>& candidate
     cellBound = std::max(cellBound, boundBySamples(leastVoxels[slot]));
     if (isComplete || isBrickStored(cellBound)) kept.push_back(slot);
   }
-  keepBricks(level.solidDistances, kept);
-  keepBricks(level.solidTriangles, kept);
-  keepBricks(level.sheetDistances, kept);
-  keepBricks(level.sheetTriangles, kept);
+  tbb::parallel_invoke([&] { keepBricks(level.solidDistances, kept); }, [&] { keepBricks(level.solidTriangles, kept); },
+                       [&] { keepBricks(level.sheetDistances, kept); },
+                       [&] { keepBricks(level.sheetTriangles, kept); });
   for (const std::size_t slot : kept) {
     level.brickOfCell[candidates[slot]] = static_cast<std::uint32_t>(level.cellOfBrick.size());
     level.cellOfBrick.push_back(candidates[slot]);
@@ -236,8 +237,9 @@ float boundBySamples(float leastVoxels) {
 
 void sampleBrick(const SamplingRequest& request, glm::ivec3 brick, bool isCapped, BrickSamples& samples) {
   sampleRows(request, brick, allSamples(), isCapped,
-             {samples.solidDistances.data(), samples.sheetDistances.data(), samples.solidTriangles.data(),
-              samples.sheetTriangles.data()});
+             {samples.solidDistances.data(), samples.sheetDistances.data(),
+              request.keepsTriangles ? samples.solidTriangles.data() : nullptr,
+              request.keepsTriangles ? samples.sheetTriangles.data() : nullptr});
 }
 
 void storeBrick(const SamplingRequest& request, std::size_t cell, const BrickSamples& samples, LevelSamples& level) {
@@ -247,7 +249,7 @@ void storeBrick(const SamplingRequest& request, std::size_t cell, const BrickSam
     level.cellOfBrick.push_back(static_cast<std::uint32_t>(cell));
     resizeBricks(request, level.brickCount(), level);
   }
-  putBrick(request, slot, samples, level);
+  putBrick(slot, samples, level);
 }
 
 LevelSamples sampleLevel(const SamplingRequest& request) {

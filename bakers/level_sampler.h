@@ -66,9 +66,9 @@ struct LevelSamples {
   std::vector<std::uint32_t> brickOfCell; ///< kNoBrick where the surface stays away
   std::vector<std::uint32_t> cellOfBrick;
   LargeVector<float> solidDistances;         ///< unsigned; where beyond the range, some lower bound beyond it
-  LargeVector<std::uint32_t> solidTriangles; ///< closest, or one not far from that where beyond the range
+  LargeVector<std::uint32_t> solidTriangles; ///< closest, or one not far from that where beyond the range; if kept
   LargeVector<float> sheetDistances;         ///< negative inside the slab
-  LargeVector<std::uint32_t> sheetTriangles;
+  LargeVector<std::uint32_t> sheetTriangles; ///< if kept
 
   std::uint64_t queries = 0; ///< points whose distance was asked for
 
@@ -81,6 +81,7 @@ struct SamplingRequest {
   SampleGrid grid;
   double halfThickness = 0;     ///< soup space
   double solidGrowthVoxels = 0; ///< at most so far will solids be moved outwards (thin_parts.h)
+  bool keepsTriangles = true;   ///< the closest ones, which only colors and thicknesses ask for
   bool isComplete = false;      ///< every cell becomes a brick, no distance is capped: the coarsest level
   std::function<void(std::size_t bricks)> admit; ///< asked before memory for so many bricks is taken; may throw
   std::function<void(std::size_t bricks)> done;  ///< called from any thread as bricks are finished; may throw
@@ -108,7 +109,7 @@ void storeBrick(const SamplingRequest& request, std::size_t cell, const BrickSam
 float boundBySamples(float leastVoxels);
 
 /// A brick is stored if the surface may come within kTouchVoxels of its closed box: by the distance at its centre, then
-/// at those of its eighths, at last by its samples.
+/// at those of its eighths (unless what is closest to its centre comes into one), at last by its samples.
 ///
 /// Samples that bricks share are measured once.
 ///

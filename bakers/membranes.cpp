@@ -6,9 +6,8 @@
 #include <cmath>
 #include <memory>
 
-#include <tbb/parallel_for.h>
-
 #include "bakers/brick_sampler.h"
+#include "bakers/each_uneven.h"
 #include "bakers/sample_signs.h"
 
 namespace brickfield {
@@ -134,7 +133,8 @@ public:
       float& distance = samples.solidDistances[i];
       if (distance < kTriangleVoxels || distance <= toMembrane[i]) continue;
       // The triangle gives the membrane its color; beyond the range it was not looked for.
-      if (distance >= static_cast<float>(kSampledRangeVoxels) && static_cast<double>(toMembrane[i]) < kColoredVoxels)
+      if (request_.keepsTriangles && distance >= static_cast<float>(kSampledRangeVoxels) &&
+          static_cast<double>(toMembrane[i]) < kColoredVoxels)
         samples.solidTriangles[i] =
             request_.surfaces->solid->nearest(level_.grid.sample(brick, sampleOfIndex(i))).triangle;
       distance = toMembrane[i];
@@ -232,7 +232,7 @@ void insertMembranes(const SamplingRequest& request, const InsideTest& test, Lev
   request.admit(level.brickCount() + cells.size());
   std::vector<MembraneBrick> bricks(cells.size());
   const MembraneSampler sampler(request, test, level, signs);
-  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
+  forEachUneven(cells.size(), 2, [&](std::size_t i) {
     bricks[i] = sampler.measure(cells[i], isMixed(cells[i]));
     request.done(0);
   });

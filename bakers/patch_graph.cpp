@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <tbb/parallel_for.h>
+#include "bakers/each_uneven.h"
 
 namespace brickfield {
 
@@ -26,7 +26,6 @@ public:
         solid_(solid),
         brick_(level.grid.brickOfCell(level.cellOfBrick[b])),
         distances_(&level.solidDistances[b * kSamples]),
-        triangles_(&level.solidTriangles[b * kSamples]),
         patches_(patches) {}
 
   void run() {
@@ -55,7 +54,11 @@ private:
   /// A sample of another patch without a triangle between; kSamples: none is known.
   std::size_t findNeighbour(std::size_t sample, const SampleMask& own) const {
     const glm::dvec3 point = level_.grid.sample(brick_, sampleOfIndex(sample));
-    const glm::dvec3 on = closestPointOnTriangle(point, solid_.hierarchy().soup().corners(triangles_[sample])).point;
+    const double voxel = level_.grid.voxelSize;
+    const double known = (static_cast<double>(distances_[sample]) + kLookSlackVoxels) * voxel;
+    const std::uint32_t triangle = solid_.nearest(point, known).triangle;
+    if (triangle == kNoTriangle) return kSamples;
+    const glm::dvec3 on = closestPointOnTriangle(point, solid_.hierarchy().soup().corners(triangle)).point;
     const double away = glm::length(point - on);
     if (!(away > 0)) return kSamples;
     const glm::dvec3 toPlace = kOffVoxels / away * (point - on); // voxels
@@ -64,7 +67,6 @@ private:
     const auto [neighbour, gap] = nearestBall(sample, toPlace, own, most);
     const double radius = std::max({kOffVoxels - static_cast<double>(distances_[sample]), gap, 0.0}) + kLookSlackVoxels;
     if (neighbour == kSamples || radius > most) return kSamples;
-    const double voxel = level_.grid.voxelSize;
     const bool isClear = solid_.nearest(point + voxel * toPlace, radius * voxel).triangle == kNoTriangle;
     return isClear ? neighbour : kSamples;
   }
@@ -96,7 +98,6 @@ private:
   const MeshDistance& solid_;
   glm::ivec3 brick_;
   const float* distances_;
-  const std::uint32_t* triangles_;
   std::vector<SampleMask>& patches_;
 };
 
@@ -116,7 +117,7 @@ std::vector<SampleMask> patchesOf(const float* distances) {
 PatchGraph::PatchGraph(const LevelSamples& level, const MeshDistance& solid)
     : level_(&level), first_(level.brickCount() + 1), place_(level.brickCount()) {
   // Faces along the grid make a patch of each of their samples: masks are stored once, at once.
-  tbb::parallel_for(std::size_t{0}, level.brickCount(), [&](std::size_t b) {
+  forEachUneven(level.brickCount(), 4, [&](std::size_t b) {
     std::vector<SampleMask> patches = patchesOf(&level.solidDistances[b * kSamples]);
     PatchJoiner(level, solid, b, patches).run();
     place_[b] = static_cast<std::size_t>(masks_.grow_by(patches.begin(), patches.end()) - masks_.begin());

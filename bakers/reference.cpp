@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "bakers/job_pool.h"
 #include "bakers/reference_geometry.h"
 #include "bakers/reference_samples.h"
 #include "bakers/reference_shading.h"
@@ -167,7 +168,7 @@ FrameLayers traceReference(const ReferenceRequest& request, const Progress& prog
   const glm::vec3 eye = glm::abs(request.view->eyeWorld);
   if (constexpr float kFarthestEye = 1e12f; !(std::max({eye.x, eye.y, eye.z}) < kFarthestEye))
     throw BadInput("camera", "eye", "the reference needs it within 1e12 metres of the origin");
-  tbb::task_arena arena(request.threads > 0 ? request.threads : tbb::task_arena::automatic);
+  tbb::task_arena arena(threadsFor(request.threads));
   return arena.execute([&] { return Tracer(request, progress).run(); });
 }
 

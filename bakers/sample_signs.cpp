@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <optional>
 
-#include <tbb/parallel_for.h>
-
 #include "bakers/brick_sampler.h"
+#include "bakers/each_uneven.h"
 #include "bakers/rim_turns.h"
 #include "bakers/sample_links.h"
 
@@ -161,7 +160,8 @@ public:
 
   std::vector<std::uint8_t> run() {
     const glm::ivec3 blocks = (grid_.brickCounts + kBlockCells - 1) / kBlockCells;
-    tbb::parallel_for(0, blocks.x * blocks.y * blocks.z, [&](int i) {
+    forEachUneven(static_cast<std::size_t>(blocks.x * blocks.y * blocks.z), 1, [&](std::size_t number) {
+      const auto i = static_cast<int>(number);
       look(kBlockCells * glm::ivec3(i % blocks.x, i / blocks.x % blocks.y, i / (blocks.x * blocks.y)), kBlockCells);
     });
     return std::move(steady_);

@@ -121,6 +121,20 @@ double SheetSlabs::centredDistance(std::uint32_t triangle, double distance, doub
   return distance - (triangle < soup_->firstPiece() ? 1.0 : pieceShare_) * halfThickness;
 }
 
+void SheetSlabs::centreDistances(std::span<float> distances, const std::uint32_t* triangles,
+                                 double halfThickness) const {
+  const double ofPieces = pieceShare_ * halfThickness;
+  if (!triangles) {
+    for (float& distance : distances) distance = static_cast<float>(static_cast<double>(distance) - halfThickness);
+    return;
+  }
+  const auto firstPiece = static_cast<std::uint32_t>(soup_->firstPiece());
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const double half = triangles[i] < firstPiece ? halfThickness : ofPieces;
+    distances[i] = static_cast<float>(static_cast<double>(distances[i]) - half);
+  }
+}
+
 /// To a slab behind, off rims.
 double SheetSlabs::smoothDistance(bool isBefore, double distance, double halfThickness) {
   const double middle = 0.5 * depthOf(halfThickness);

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <span>
 #include <vector>
 
 #include "bakers/mesh_distance.h"
@@ -35,11 +37,15 @@ public:
 
   bool areAllCentred() const { return neighbours_.empty(); }
   /// How far from its triangle a slab reaches at most.
-  double mostReach(double halfThickness) const { return areAllCentred() ? halfThickness : depthOf(halfThickness); }
+  double mostReach(double halfThickness) const {
+    return areAllCentred() ? halfThickness : std::hypot(halfThickness, depthOf(halfThickness)); // beside a rim, behind
+  }
   bool isBehind(std::uint32_t triangle) const { return isBehind_[triangle]; }
+  /// Whether slabs that masks were cut into are thinner than others.
+  bool hasPieces() const { return soup_->firstPiece() < soup_->triangles.size() && pieceShare_ != 1; }
 
   /// Signed distance to the slab of the closest triangle, negative inside. Exact for centred slabs and before the
-  /// fronts of others; no slab is nearer than closest.distance - depthOf(halfThickness).
+  /// fronts of others; no slab is nearer than closest.distance - mostReach(halfThickness).
   ///
   /// closest        what MeshDistance found for the point among the sheets
   /// halfThickness  soup space
@@ -47,6 +53,11 @@ public:
   double distance(glm::dvec3 point, const ClosestTriangle& closest, double halfThickness) const;
   /// The same, of a slab that is centred, by the distance to its triangle in any unit.
   double centredDistance(std::uint32_t triangle, double distance, double halfThickness) const;
+  /// centredDistance of several points, in floats.
+  ///
+  /// triangles  of each point; kNoTriangle: its distance is infinite and stays so; nothing: no piece of a mask is among
+  ///            them (hasPieces)
+  void centreDistances(std::span<float> distances, const std::uint32_t* triangles, double halfThickness) const;
   /// The same, of a slab behind, where the point's foot lies inside the triangle.
   ///
   /// height  over the triangle, counter-clockwise positive, in any unit

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include <tbb/parallel_for.h>
+#include "bakers/each_uneven.h"
 
 namespace brickfield {
 
@@ -92,7 +92,7 @@ public:
   /// How far each triangle's side that is more inside is wrapped, 0 to 1: at one place, or in the mean of all.
   std::vector<double> closures(const std::vector<std::uint32_t>& triangles, bool isOneEnough) {
     std::vector<double> result(triangles.size());
-    tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) {
+    forEachUneven(triangles.size(), 8, [&](std::size_t i) {
       const std::uint32_t t = triangles[i];
       const TrianglePlaces places(soup_, request_, t);
       if (isOneEnough) {
@@ -113,7 +113,7 @@ public:
   std::vector<PlaceShare> placeShares(const std::vector<std::uint32_t>& triangles, std::size_t first, std::size_t count,
                                       bool isBackEnough) {
     std::vector<PlaceShare> result(triangles.size());
-    tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) {
+    forEachUneven(triangles.size(), 8, [&](std::size_t i) {
       const std::uint32_t t = triangles[i];
       const TrianglePlaces places(soup_, request_, t);
       const double share = 1.0 / static_cast<double>(places.count());
@@ -133,7 +133,7 @@ public:
   /// Which triangles have open space on both sides at most of their places.
   std::vector<std::uint8_t> areOpen(const std::vector<std::uint32_t>& triangles) {
     std::vector<std::uint8_t> result(triangles.size());
-    tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t i) { result[i] = isOpen(triangles[i]); });
+    forEachUneven(triangles.size(), 8, [&](std::size_t i) { result[i] = isOpen(triangles[i]); });
     return result;
   }
 

@@ -2,9 +2,11 @@
 #include "bakers/sign_flood.h"
 
 #include <algorithm>
+#include <optional>
 
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
+#include "bakers/each_uneven.h"
 #include "bakers/patch_graph.h"
 #include "bakers/sample_signs.h"
 
@@ -36,8 +38,8 @@ std::vector<PatchSign> signsByRegion(const PatchGraph& graph, const InsideTest& 
                                      const std::vector<std::uint8_t>& isVoter) {
   const std::uint32_t count = graph.patchCount();
   SharedSets regions(count);
-  tbb::parallel_for(0, graph.sliceCount(), [&](int z) {
-    graph.forEachMeetingInSlice(z, [&](std::uint32_t a, std::uint32_t b) {
+  forEachUneven(static_cast<std::size_t>(graph.sliceCount()), 1, [&](std::size_t z) {
+    graph.forEachMeetingInSlice(static_cast<int>(z), [&](std::uint32_t a, std::uint32_t b) {
       if (isVoter[a] && isVoter[b]) regions.unite(a, b);
     });
   });
@@ -52,8 +54,7 @@ std::vector<PatchSign> signsByRegion(const PatchGraph& graph, const InsideTest& 
     if (total <= kVotes || number * kVotes / total != (number + 1) * kVotes / total) voters.push_back(patch);
   }
   std::vector<std::uint8_t> votes(voters.size());
-  tbb::parallel_for(std::size_t{0}, voters.size(),
-                    [&](std::size_t i) { votes[i] = test.isInside(graph.pointOf(voters[i])); });
+  forEachUneven(voters.size(), 8, [&](std::size_t i) { votes[i] = test.isInside(graph.pointOf(voters[i])); });
   std::vector<Ballot> ballots(count);
   for (std::size_t i = 0; i < voters.size(); ++i) ballots[regionOfPatch[voters[i]]].cast(votes[i]);
   std::vector<PatchSign> signs(count);
@@ -72,21 +73,20 @@ std::uint64_t bytesOfBits(std::uint64_t bits) {
 class SignFlood {
 public:
   SignFlood(const LevelSamples& level, const MeshDistance& solid, const InsideTest& test)
-      : level_(level), test_(test), graph_(level, solid), isSteady_(findSteadyCells(level.grid, test)) {
-    isVoter_.resize(graph_.patchCount());
-    for (std::size_t cell = 0; cell < isSteady_.size(); ++cell)
-      if (level.brickOfCell[cell] == kNoBrick) isVoter_[cell] = isSteady_[cell];
-    for (std::size_t b = 0; b < level.brickCount(); ++b)
-      for (std::uint32_t patch = graph_.firstPatchOf(b); patch < graph_.endPatchOf(b); ++patch)
-        isVoter_[patch] = isSteady_[level.cellOfBrick[b]];
-  }
+      : level_(level), solid_(solid), test_(test) {}
 
   LevelSigns run() {
-    patchSigns_ = signsByRegion(graph_, test_, isVoter_);
     LevelSigns signs;
     signs.cellInside.resize(level_.grid.cellCount());
     signs.sampleInside.resize(level_.brickCount() * kSamples);
-    tbb::parallel_for(std::size_t{0}, signs.cellInside.size(), [&](std::size_t cell) {
+    // Neither needs the other: one fills the gaps of the other.
+    tbb::parallel_invoke([&] { graph_.emplace(level_, solid_); },
+                         [&] {
+                           isSteady_ = findSteadyCells(level_.grid, test_);
+                           askUnsteadyBricks(signs);
+                         });
+    patchSigns_ = signsByRegion(*graph_, test_, voters());
+    forEachUneven(signs.cellInside.size(), 64, [&](std::size_t cell) {
       if (level_.brickOfCell[cell] == kNoBrick)
         signs.cellInside[cell] = signOfCell(cell);
       else
@@ -97,6 +97,27 @@ public:
   }
 
 private:
+  void askUnsteadyBricks(LevelSigns& signs) const {
+    std::vector<std::size_t> unsteady;
+    for (std::size_t b = 0; b < level_.brickCount(); ++b)
+      if (!isSteady_[level_.cellOfBrick[b]]) unsteady.push_back(b);
+    forEachUneven(unsteady.size(), 1, [&](std::size_t i) {
+      const std::size_t begin = unsteady[i] * kSamples;
+      const glm::ivec3 brick = level_.grid.brickOfCell(level_.cellOfBrick[unsteady[i]]);
+      const SampleSigns asked = askSamples(level_.grid, brick, test_, &level_.solidDistances[begin]);
+      std::copy(asked.begin(), asked.end(), &signs.sampleInside[begin]);
+    });
+  }
+  /// A patch: it exists, in a steady cell.
+  std::vector<std::uint8_t> voters() const {
+    std::vector<std::uint8_t> isVoter(graph_->patchCount());
+    for (std::size_t cell = 0; cell < isSteady_.size(); ++cell)
+      if (level_.brickOfCell[cell] == kNoBrick) isVoter[cell] = isSteady_[cell];
+    for (std::size_t b = 0; b < level_.brickCount(); ++b)
+      for (std::uint32_t patch = graph_->firstPatchOf(b); patch < graph_->endPatchOf(b); ++patch)
+        isVoter[patch] = isSteady_[level_.cellOfBrick[b]];
+    return isVoter;
+  }
   std::uint8_t signOfCell(std::size_t cell) {
     const glm::ivec3 brick = level_.grid.brickOfCell(cell);
     if (!isSteady_[cell]) {
@@ -108,12 +129,12 @@ private:
                                                  : patchSigns_[cell] == PatchSign::Inside;
   }
 
-  /// Samples on the surface have no side: outside, unless one was asked for.
+  /// Samples on the surface have no side: outside, unless one was asked for. All of unsteady bricks were.
   void signBrick(std::size_t b, std::uint8_t* sampleInside) {
     const glm::ivec3 brick = level_.grid.brickOfCell(level_.cellOfBrick[b]);
     const auto forEachPatch = [&](const auto& visit) {
-      for (std::uint32_t patch = graph_.firstPatchOf(b); patch < graph_.endPatchOf(b); ++patch)
-        visit(patchSigns_[patch], graph_.samplesOf(b, patch));
+      for (std::uint32_t patch = graph_->firstPatchOf(b); patch < graph_->endPatchOf(b); ++patch)
+        visit(patchSigns_[patch], graph_->samplesOf(b, patch));
     };
     if (isSteady_[level_.cellOfBrick[b]]) {
       SampleMask inside{};
@@ -132,42 +153,40 @@ private:
       }
       return;
     }
-    const SampleSigns asked = askSamples(level_.grid, brick, test_, &level_.solidDistances[b * kSamples]);
-    std::copy(asked.begin(), asked.end(), sampleInside);
     forEachPatch([&](PatchSign& sign, const SampleMask& samples) {
       Ballot ballot;
-      forEachSample(samples, [&](std::size_t i) { ballot.cast(asked[i] != 0); });
+      forEachSample(samples, [&](std::size_t i) { ballot.cast(sampleInside[i] != 0); });
       sign = ballot.sign();
     });
   }
 
   /// Cells with patches of two signs, and those where patches that meet disagree.
   std::vector<std::uint32_t> findMixedCells() const {
-    std::vector<std::uint8_t> isMixed(graph_.patchCount(), 0);
-    for (std::uint32_t patch = 0; patch < graph_.patchCount(); ++patch)
-      isMixed[patch] = graph_.exists(patch) && patchSigns_[patch] == PatchSign::Mixed;
+    std::vector<std::uint8_t> isMixed(graph_->patchCount(), 0);
+    for (std::uint32_t patch = 0; patch < graph_->patchCount(); ++patch)
+      isMixed[patch] = graph_->exists(patch) && patchSigns_[patch] == PatchSign::Mixed;
     if (!test_.isConstantBetweenSurfaces())
       for (std::size_t cell = 0; cell < isSteady_.size(); ++cell) {
         if (isSteady_[cell]) continue; // patches of steady cells that meet are of one region
-        graph_.forEachMeetingOf(cell, [&](std::uint32_t a, std::uint32_t b) {
+        graph_->forEachMeetingOf(cell, [&](std::uint32_t a, std::uint32_t b) {
           if (patchSigns_[a] != patchSigns_[b] && patchSigns_[a] != PatchSign::Mixed &&
               patchSigns_[b] != PatchSign::Mixed)
             isMixed[a] = isMixed[b] = 1;
         });
       }
     std::vector<std::uint32_t> cells;
-    for (std::uint32_t patch = 0; patch < graph_.patchCount(); ++patch)
-      if (isMixed[patch]) cells.push_back(graph_.cellOf(patch));
+    for (std::uint32_t patch = 0; patch < graph_->patchCount(); ++patch)
+      if (isMixed[patch]) cells.push_back(graph_->cellOf(patch));
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     return cells;
   }
 
   const LevelSamples& level_;
+  const MeshDistance& solid_;
   const InsideTest& test_;
-  const PatchGraph graph_;
-  const std::vector<std::uint8_t> isSteady_; ///< a cell
-  std::vector<std::uint8_t> isVoter_;        ///< a patch
+  std::optional<PatchGraph> graph_;
+  std::vector<std::uint8_t> isSteady_; ///< a cell
   std::vector<PatchSign> patchSigns_;
 };
 

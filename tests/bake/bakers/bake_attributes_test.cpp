@@ -162,6 +162,33 @@ TEST(BakeAttributes, NoneWereAskedFor) {
   }
 }
 
+// Closest triangles are kept for colors and thicknesses alone: all else comes out the same without.
+TEST(BakeAttributes, DistancesAreTheSameWithoutThem) {
+  struct Case {
+    const char* file;
+    SignMethod sign = SignMethod::Auto;
+    int resolution = 48;
+  };
+  for (const Case& bake :
+       {Case{"stanford_dragon_11k.glb"}, Case{"utah_teapot_1k.glb"}, Case{"tree_leaf_cards.glb"},
+        Case{"suzanne.glb", SignMethod::TwoSided}, Case{"stanford_bunny_69k.glb", SignMethod::Auto, 24}}) {
+    BRICKFIELD_NEEDS_DATA(bake.file);
+    const FileCase file(bake.file);
+    BakeSettings settings = settingsOf(bake.resolution);
+    settings.sign = bake.sign;
+    const BrickField with = bakeField(file.input(), settings).field;
+    settings.attributes = false;
+    const BrickField without = bakeField(file.input(), settings).field;
+    ASSERT_EQ(with.levels.size(), without.levels.size());
+    for (std::size_t i = 0; i < with.levels.size(); ++i) {
+      const BrickLevel &level = with.levels[i], &bare = without.levels[i];
+      EXPECT_EQ(level.rangeVoxels, bare.rangeVoxels) << bake.file << ", level " << i;
+      EXPECT_TRUE(level.distances == bare.distances) << bake.file << ", level " << i;
+      EXPECT_TRUE(level.indirection == bare.indirection) << bake.file << ", level " << i;
+    }
+  }
+}
+
 // Bands on a beam, plates on a plinth: what lies under less than a voxel of something else is not seen.
 TEST(BakeAttributes, ThinCoatHidesWhatItLiesOn) {
   MeshCase scene; // a red box, and a green plate that reaches 0.4 voxels out of its top
