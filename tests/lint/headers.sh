@@ -1,10 +1,10 @@
-# Every header compiles alone. The build shows it of those that a source includes before all else; the others are
-# compiled here. A build file of ninja remembers which of them, and what they include, are unchanged.
+# Every header compiles alone. The build shows it of those that a source includes before all else (but for tests, which
+# get others before); the others are compiled here. A build file of ninja remembers which of them, and what they include, are unchanged.
 set -euo pipefail
 folder=build/lint/headers
 mkdir -p "$folder"
 # As the include lines of sources name them: by their path within one of the folders that are searched.
-tools/list_files '^(src|bakers|scenes|tests)/.*\.cpp$' | xargs -n 1 grep -m 1 '^#' |
+tools/list_files '^(src|bakers|scenes)/.*\.cpp$' | xargs -n 1 grep -m 1 '^#' |
   sed -n 's/^#include "\(.*\)"$/\1/p' | sort -u >"$folder/shown_by_build"
 is_shown() { printf '%s\n' "$1" "${1#src/}" "${1#shaders/}" "${1#scenes/}" | grep -qxFf "$folder/shown_by_build"; }
 flags="-std=c++20 -fsyntax-only -Wall -Wextra -Werror -DBRICKFIELD_BAKERS=1 -DGLM_FORCE_DEPTH_ZERO_TO_ONE"
