@@ -21,19 +21,24 @@ constexpr double kLeastIouOfOne = 0.9, kLeastIouOfNine = 0.92;
 class LeafCards : public GlTest {
 protected:
   Fidelity measure(const TestScene& scene, const View& view) {
-    const auto renderer = scene.makeRenderer(context().info());
-    renderer->render(view);
-    const Fidelity fidelity = measureFidelity(scene, renderer->readLayers(), scene.reference(view));
+    const Fidelity fidelity = measureFidelity(scene, draw(scene, view), scene.reference(view));
     fmt::print("{}: {}\n", scene.scene().name, describe(fidelity));
     return fidelity;
   }
-  /// Of what the renderer and most of a pixel's rays of the reference hit.
-  double silhouetteIou(const TestScene& scene, glm::vec3 eye, glm::uvec2 sizePixels, unsigned raysAside) {
-    const auto viewOf = [&](glm::uvec2 size) { return scene.view(eye, {0, 1500, 0}, size, 50); };
-    const auto renderer = scene.makeRenderer(context().info());
-    renderer->render(viewOf(sizePixels));
-    const std::vector<bool> found = hitsOf(renderer->readLayers(), sizePixels, 1);
-    const std::vector<bool> truth = hitsOf(scene.reference(viewOf(raysAside * sizePixels)), sizePixels, raysAside);
+  FrameLayers draw(const TestScene& scene, const View& view) {
+    Renderer& renderer = scene.sharedRenderer(context().info(), {});
+    renderer.render(view);
+    return renderer.readLayers();
+  }
+  static View viewFrom(const TestScene& scene, glm::vec3 eye, glm::uvec2 sizePixels) {
+    return scene.view(eye, {0, 1500, 0}, sizePixels, 50);
+  }
+  /// Of what a picture shows and most of a pixel's rays of the reference hit.
+  static double silhouetteIou(const TestScene& scene, const FrameLayers& picture, glm::vec3 eye, unsigned raysAside) {
+    const glm::uvec2 sizePixels = picture.size;
+    const std::vector<bool> found = hitsOf(picture, sizePixels, 1);
+    const std::vector<bool> truth =
+        hitsOf(scene.reference(viewFrom(scene, eye, raysAside * sizePixels)), sizePixels, raysAside);
     std::size_t both = 0, onlyFound = 0, onlyTruth = 0;
     for (std::size_t p = 0; p < found.size(); ++p)
       both += found[p] && truth[p], onlyFound += found[p] && !truth[p], onlyTruth += !found[p] && truth[p];
@@ -68,7 +73,7 @@ TEST_F(LeafCards, TreeAt256KeepsItsLeaves) {
   EXPECT_GT(whole.bothHit, 20000u);
   for (const glm::vec3 eye : {glm::vec3(2200, 1500, 900), glm::vec3(-1200, 2600, -1900), glm::vec3(1600, 400, -2400),
                               glm::vec3(-2500, 900, 1300)}) {
-    const Fidelity side = measure(scene, scene.view(eye, {0, 1500, 0}, {640, 640}, 50));
+    const Fidelity side = measure(scene, viewFrom(scene, eye, {640, 640}));
     EXPECT_GE(side.silhouetteIou, kLeastIou) << eye.x;
     EXPECT_GT(side.bothHit, 40000u) << eye.x;
   }
@@ -78,8 +83,9 @@ TEST_F(LeafCards, FromFarAlongTheAxesTheyKeepTheirOutline) {
   BRICKFIELD_NEEDS_DATA("tree_leaf_cards.glb");
   const TestScene scene(dataFile("tree_leaf_cards.glb"), "all", 256);
   for (const glm::vec3 eye : {glm::vec3(300, 1700, 4200), glm::vec3(4200, 1700, -300), glm::vec3(300, 1700, -4200)}) {
-    EXPECT_GE(silhouetteIou(scene, eye, {640, 640}, 1), kLeastIouOfOne) << eye.x;
-    EXPECT_GE(silhouetteIou(scene, eye, {640, 640}, 3), kLeastIouOfNine) << eye.x;
+    const FrameLayers picture = draw(scene, viewFrom(scene, eye, {640, 640}));
+    EXPECT_GE(silhouetteIou(scene, picture, eye, 1), kLeastIouOfOne) << eye.x;
+    EXPECT_GE(silhouetteIou(scene, picture, eye, 3), kLeastIouOfNine) << eye.x;
   }
 }
 

@@ -76,6 +76,14 @@ std::unique_ptr<Renderer> TestScene::makeRenderer(const ContextInfo& info, const
   return renderer;
 }
 
+Renderer& TestScene::sharedRenderer(const ContextInfo& info, const RendererSettings& settings) const {
+  if (!shared_)
+    shared_ = makeRenderer(info, settings);
+  else
+    shared_->setSettings(settings);
+  return *shared_;
+}
+
 glm::vec2 TestScene::voxelWorld(int node) const {
   const int field = fields_.fieldOfNode[static_cast<std::size_t>(node)];
   const float voxel = fields_.fields[static_cast<std::size_t>(field)].levels[0].voxelSizeObject;

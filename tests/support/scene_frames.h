@@ -40,6 +40,8 @@ public:
   FrameLayers reference(const View& view, bool shadows = true, BrdfModel brdf = BrdfModel::CookTorrance) const;
   /// Uploads into a renderer of its own on the current context.
   std::unique_ptr<Renderer> makeRenderer(const ContextInfo& info, const RendererSettings& settings = {}) const;
+  /// One for all that draw the scene: while the shape of its world field stays, that is made once.
+  Renderer& sharedRenderer(const ContextInfo& info, const RendererSettings& settings) const;
 
   /// Smallest and largest metres of world that a voxel of a node's field spans.
   glm::vec2 voxelWorld(int node) const;
@@ -51,6 +53,7 @@ private:
   Pose pose_;
   Lighting lighting_;
   SceneFields fields_;
+  mutable std::unique_ptr<Renderer> shared_;
 };
 
 /// How a picture of SDF objects differs from the reference's. Depths in the smallest voxel of the object hit.

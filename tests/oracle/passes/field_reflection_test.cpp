@@ -92,10 +92,10 @@ class FieldReflection : public GlTest {
 protected:
   FrameLayers draw(const TestScene& scene, const View& view, const Lighting& lighting,
                    const RendererSettings& settings) {
-    const auto renderer = scene.makeRenderer(context().info(), settings);
-    renderer->setLighting(lighting);
-    renderer->render(view);
-    return renderer->readLayers();
+    Renderer& renderer = scene.sharedRenderer(context().info(), settings);
+    renderer.setLighting(lighting);
+    renderer.render(view);
+    return renderer.readLayers();
   }
 };
 
@@ -188,9 +188,9 @@ TEST_F(FieldReflection, CrowdsAreMirroredWhereEmbreeMeetsThem) {
 // come nearer to the truth than the prefiltered surroundings, whose lobes are round.
 TEST_F(FieldReflection, AloneAFloorMirrorsTheSurroundings) {
   const Lighting lighting{{}, makeSky(glm::normalize(glm::vec3(1, 1, 1)))};
-  for (const float roughness : {0.0f, 0.3f, 0.6f, 1.0f})
+  for (const float roughness : {0.0f, 0.3f, 0.6f, 1.0f}) {
+    const TestScene scene(floorScene(roughness), "none");
     for (const glm::vec3 eye : {glm::vec3(1.4f, 0.9f, 1.6f), glm::vec3(2.4f, 0.15f, 0.3f)}) {
-      const TestScene scene(floorScene(roughness), "none");
       const View view = scene.view(eye, glm::vec3(0), kSize, 50);
       const FrameLayers truth = tracedMirrors(scene, view, lighting, 64);
       RendererSettings off = reflecting(1);
@@ -222,6 +222,7 @@ TEST_F(FieldReflection, AloneAFloorMirrorsTheSurroundings) {
         }
       }
     }
+  }
 }
 
 // Of what a rough floor mirrors the sphere fills as much as it fills of its lobe.
@@ -454,12 +455,13 @@ TEST_F(FieldReflection, PartsOfLobesAreSharedWithinASurface) {
     addNode(built, makeBoxMesh({1.5f, 0.5f, 0.05f}), glm::translate(glm::mat4(1), {0, 0.5f, -1}), glowing(0));
     return built;
   };
-  const auto errorOf = [&](bool hasRough, int scale) {
-    const TestScene scene(striped(hasRough), "none");
-    const View view = scene.view({0, 0.9f, 2}, {0, 0.1f, -0.2f}, kSize, 50);
-    const Lighting lighting = evenly(1);
-    const FrameLayers truth = tracedMirrors(scene, view, lighting, 64),
-                      layers = draw(scene, view, lighting, reflecting(scale));
+  const TestScene among(striped(true), "none"), lonely(striped(false), "none");
+  const View view = among.view({0, 0.9f, 2}, {0, 0.1f, -0.2f}, kSize, 50);
+  const Lighting lighting = evenly(1);
+  const FrameLayers truthAmong = tracedMirrors(among, view, lighting, 64),
+                    truthLonely = tracedMirrors(lonely, view, lighting, 64);
+  const auto errorOf = [&](const TestScene& scene, const FrameLayers& truth, int scale) {
+    const FrameLayers layers = draw(scene, view, lighting, reflecting(scale));
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < truth.id.size(); ++i) {
@@ -471,7 +473,7 @@ TEST_F(FieldReflection, PartsOfLobesAreSharedWithinASurface) {
     return std::sqrt(sum / static_cast<double>(count));
   };
   for (const int scale : {1, 2, 4}) {
-    const double between = errorOf(true, scale), alone = errorOf(false, scale);
+    const double between = errorOf(among, truthAmong, scale), alone = errorOf(lonely, truthLonely, scale);
     fmt::print("every {}. pixel: RMS {:.3f} between rough ones, {:.3f} alone\n", scale, between, alone);
     EXPECT_LE(between, 1.15 * alone);
   }
@@ -479,10 +481,20 @@ TEST_F(FieldReflection, PartsOfLobesAreSharedWithinASurface) {
 
 TEST_F(FieldReflection, SameFrameIsTheSameBytes) {
   const TestScene scene(sphereOverFloor(0.3f), "Node1", 64);
-  const View view = scene.view({1.3f, 0.9f, 1.6f}, {0, 0.1f, 0}, kSize, 50);
-  for (const int scale : {1, 2})
-    EXPECT_EQ(draw(scene, view, evenly(kAround), reflecting(scale)).color,
-              draw(scene, view, evenly(kAround), reflecting(scale)).color);
+  const View view = scene.view({1.3f, 0.9f, 1.6f}, {0, 0.1f, 0}, {64, 48}, 50);
+  RendererSettings settings = reflecting(1);
+  settings.worldField.shape.texels = 64;
+  for (const int scale : {1, 2}) {
+    settings.reflections.scale = scale;
+    std::vector<std::vector<glm::vec3>> pictures;
+    for (int run = 0; run < 2; ++run) {
+      const auto renderer = scene.makeRenderer(context().info(), settings);
+      renderer->setLighting(evenly(kAround));
+      renderer->render(view);
+      pictures.push_back(renderer->readLayers().color);
+    }
+    EXPECT_EQ(pictures[0], pictures[1]);
+  }
 }
 
 } // namespace
