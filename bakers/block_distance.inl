@@ -137,8 +137,8 @@ struct EightCubes {
   float apart, side; ///< from one to the next, and along each
 };
 
-/// The frames of a list that may be closest to a point of each cube, and no farther than `farthest`. No point of a cube is
-/// farther from its closest triangle than the farthest corner from any one, as the distance to a triangle is convex:
+/// The frames of a list that may be closest to a point of each cube, and no farther than `farthest`. No point of a cube
+/// is farther from its closest triangle than the farthest corner from any one, as the distance to a triangle is convex:
 /// from the one that is closest to the cube's centre.
 ///
 /// count, placeOf(i)  the list, ascending

@@ -8,7 +8,8 @@ namespace brickfield {
 
 /// As many threads as asked for, but no more than there are: TBB would warn on the console.
 ///
-/// threads  0: all
+/// threads    0: all
+/// proved by  tests/bake/bakers/job_pool_test.cpp, by runJobs
 int threadsFor(int threads);
 
 /// Calls job(0) to job(count - 1), begun in this order, on as many threads; returns when all have ended.

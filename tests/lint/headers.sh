@@ -1,5 +1,6 @@
 # Every header compiles alone. The build shows it of those that a source includes before all else (but for tests, which
-# get others before); the others are compiled here. A build file of ninja remembers which of them, and what they include, are unchanged.
+# get others before); the others are compiled here. A build file of ninja remembers which of them, and what they include,
+# are unchanged.
 set -euo pipefail
 folder=build/lint/headers
 mkdir -p "$folder"
