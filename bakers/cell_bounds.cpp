@@ -136,11 +136,15 @@ public:
     if (request.surfaces->sheets) sheets_.emplace(*request.surfaces->sheets);
   }
 
-  PointBound at(glm::dvec3 point) {
-    PointBound bound;
-    if (solid_) bound = boundBySolid(solid_->nearest(point));
+  /// The least of the bound at a point and of what bounds elsewhere are, in voxels: walks need not go farther.
+  double leastVoxels(glm::dvec3 point, double elsewhere) {
+    PointBound bound{elsewhere};
+    if (solid_) {
+      const double limit = (elsewhere + request_.solidGrowthVoxels) * voxelSize();
+      bound.voxels = std::min(elsewhere, boundBySolid(solid_->nearest(point, limit)).voxels);
+    }
     if (sheets_) addSheets(point, sheets_->nearest(point, bound.voxels * voxelSize() + reach()), bound);
-    return bound;
+    return bound.voxels;
   }
 
   /// At the centre of a cell.
@@ -210,11 +214,11 @@ float cellBound(const SamplingRequest& request, glm::ivec3 brick, const SurfaceC
   const double away = glm::length(closestPointOnTriangle(nearest, corners).point - nearest);
   const bool isThin = request.halfThickness <= request.grid.voxelSize; // else it may lie deep in a slab
   if (isThin && boundBy(away / request.grid.voxelSize) <= kTouchVoxels) return static_cast<float>(byCenter);
-  double byEighths = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
   BoundPath eighthPath = path;
-  for (int number = 0; number < 8 && byEighths > kTouchVoxels; ++number)
-    byEighths = std::min(byEighths, boundBy(eighthPath.at(centerOfEighth(first ^ number)).voxels));
-  return static_cast<float>(std::max(byCenter, byEighths));
+  for (int number = 0; number < 8 && boundBy(least) > kTouchVoxels; ++number)
+    least = eighthPath.leastVoxels(centerOfEighth(first ^ number), least);
+  return static_cast<float>(std::max(byCenter, boundBy(least)));
 }
 
 } // namespace

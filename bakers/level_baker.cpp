@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
@@ -23,6 +24,8 @@ constexpr float kAttributeVoxels =
     2.0f;                           // trilinear reads reach sqrt(3) voxels from a hit; the rest is for hits off zero
 constexpr double kCoatVoxels = 1.0; // coats thicker than this have samples of their own
 constexpr double kCoatSlackVoxels = 1e-3; // layers nearer than this count as one
+
+using BrickVoxels = std::span<const float, kSamples>; ///< signed distances
 
 /// Signed distances in voxels and the triangles that they come from, in the place of the solids' (or sheets') own
 /// arrays.
@@ -51,17 +54,16 @@ public:
 
   /// Once for each brick, from any thread. A loop for each step, without branches.
   ///
-  /// returns  512 signed distances, in voxels
-  const float* unite(std::size_t b) {
+  BrickVoxels unite(std::size_t b) {
     const std::size_t begin = b * kSamples;
     float* distances = &result_.distances[begin];
-    if (!hasSolids_) return distances;
+    if (!hasSolids_) return BrickVoxels(distances, kSamples);
     const std::uint8_t* inside = &sampleInside_[begin];
     for (std::size_t i = 0; i < kSamples; ++i) distances[i] = inside[i] ? -distances[i] : distances[i];
     if (!growth_.empty())
       for (std::size_t i = 0; i < kSamples; ++i) distances[i] -= growth_[begin + i];
     if (!sheetDistances_.empty()) addSheets(begin);
-    return distances;
+    return BrickVoxels(distances, kSamples);
   }
   SignedSamples take() { return std::move(result_); }
 
@@ -101,12 +103,6 @@ void fillIndirection(BrickLevel& level, const LevelSamples& samples, const Level
   }
 }
 
-void encodeBrick(BrickLevel& level, std::size_t b, const float* voxels) {
-  std::array<float, kSamples> distancesObject;
-  for (std::size_t i = 0; i < kSamples; ++i) distancesObject[i] = voxels[i] * level.voxelSizeObject;
-  writeBrickDistances(level, static_cast<std::uint32_t>(b), distancesObject);
-}
-
 BrickLevel packLevel(const LevelBakeRequest& request, const LevelSamples& samples, const LevelSigns& signs,
                      SampleUnion& united) {
   const std::size_t bricks = samples.brickCount();
@@ -115,19 +111,19 @@ BrickLevel packLevel(const LevelBakeRequest& request, const LevelSamples& sample
     level.distances.resize(bricks * kSamples * bytesPerSample(level.format));
     tbb::parallel_invoke(
         [&] { fillIndirection(level, samples, signs); },
-        [&] { forEachUneven(bricks, 8, [&](std::size_t b) { encodeBrick(level, b, united.unite(b)); }); });
+        [&] { forEachUneven(bricks, 8, [&](std::size_t b) { writeBrickVoxels(level, b, united.unite(b)); }); });
     return level;
   }
   // The range is that of the farthest sample.
   level.format = DistanceFormat::R16Snorm;
   level.distances.resize(bricks * kSamples * bytesPerSample(level.format));
   std::vector<const float*> voxels(bricks);
-  forEachUneven(bricks, 8, [&](std::size_t b) { voxels[b] = united.unite(b); });
+  forEachUneven(bricks, 8, [&](std::size_t b) { voxels[b] = united.unite(b).data(); });
   for (const float* ofBrick : voxels)
     for (std::size_t i = 0; i < kSamples; ++i)
       level.rangeVoxels = std::max(level.rangeVoxels, rangeVoxelsWithoutClamp(std::abs(ofBrick[i])));
   fillIndirection(level, samples, signs);
-  forEachUneven(bricks, 8, [&](std::size_t b) { encodeBrick(level, b, voxels[b]); });
+  forEachUneven(bricks, 8, [&](std::size_t b) { writeBrickVoxels(level, b, BrickVoxels(voxels[b], kSamples)); });
   return level;
 }
 
@@ -233,7 +229,7 @@ BrickLevel bakeLevel(const LevelBakeRequest& request) {
   LargeVector<float> growth;
   if (request.inside) {
     const StageClock clock(seconds.sign);
-    signs = floodSigns(samples, *request.sampling.surfaces->solid, *request.inside);
+    signs = floodSigns(samples, *request.inside);
     insertMembranes(request.sampling, *request.inside, samples, signs);
     if (request.thickness) growth = growThinSolids(*request.thickness, request.sampling, samples, signs.sampleInside);
   }

@@ -2,6 +2,7 @@
 #include "bakers/level_sampler.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -41,80 +42,111 @@ void sampleRows(const SamplingRequest& request, glm::ivec3 brick, const SampleRo
         brick, rows, places.sheetDistances, places.sheetTriangles);
 }
 
+/// Where a brick or one beside it stands among the 27 of these.
+constexpr std::size_t placeOf(glm::ivec3 offset) {
+  return static_cast<std::size_t>(9 * (offset.z + 1) + 3 * (offset.y + 1) + offset.x + 1);
+}
+
+/// Samples of a brick that bricks beside it measure where they exist: those of a corner, an edge or a face.
+struct SharedSide {
+  glm::ivec3 first{0}, last{0};
+  SampleRows others{};                    ///< all samples but these
+  std::array<glm::ivec3, 7> neighbours{}; ///< that have them too, the one that comes first before the others
+  std::size_t neighbourCount = 0;
+};
+
+/// Along an axis samples are a brick's first, its last or between, and of two bricks the one that begins with a sample
+/// comes before the one that ends with it: what has no last sample the brick measures itself.
+constexpr auto kSharedSides = [] {
+  std::array<SharedSide, 27 - 8> sides{};
+  std::size_t count = 0;
+  for (int number = 0; number < 27; ++number) {
+    const std::array<int, 3> side = {number % 3, number / 3 % 3, number / 9}; // 0 first, 1 between, 2 last
+    if (side[0] != 2 && side[1] != 2 && side[2] != 2) continue;
+    SharedSide& shared = sides[count++];
+    constexpr std::array<int, 3> kFirst = {0, 1, kBrickCells}, kLast = {0, kBrickCells - 1, kBrickCells};
+    const auto of = [&](const std::array<int, 3>& ends, std::size_t axis) {
+      return ends[static_cast<std::size_t>(side[axis])];
+    };
+    shared.first = {of(kFirst, 0), of(kFirst, 1), of(kFirst, 2)};
+    shared.last = {of(kLast, 0), of(kLast, 1), of(kLast, 2)};
+    for (std::uint8_t& row : shared.others) row = 0xff;
+    const unsigned xs = (1u << (shared.last.x + 1)) - (1u << shared.first.x);
+    for (int z = shared.first.z; z <= shared.last.z; ++z)
+      for (int y = shared.first.y; y <= shared.last.y; ++y)
+        shared.others[static_cast<std::size_t>(kBrickSamples * z + y)] = static_cast<std::uint8_t>(~xs & 0xffu);
+    const auto steps = [&](std::size_t axis) { return side[axis] == 1 ? 1 : 2; };
+    bool isBeforeOwn = true;
+    for (int z = 0; z < steps(2); ++z)
+      for (int y = 0; y < steps(1); ++y)
+        for (int x = 0; x < steps(0); ++x) {
+          const glm::ivec3 offset((side[0] == 2) - x, (side[1] == 2) - y, (side[2] == 2) - z);
+          isBeforeOwn = isBeforeOwn && (offset.x != 0 || offset.y != 0 || offset.z != 0);
+          if (isBeforeOwn) shared.neighbours[shared.neighbourCount++] = offset;
+        }
+  }
+  return sides;
+}();
+
 /// Which brick measures the samples that several share: of those that exist, the first.
 class SharedSamples {
 public:
   /// slotOfCell  kNoBrick where there is no brick
-  SharedSamples(const SampleGrid& grid, const std::vector<std::uint32_t>& slotOfCell, glm::ivec3 brick)
-      : grid_(grid), slotOfCell_(slotOfCell), brick_(brick) {
-    lookAround();
-    for (int z = 0; z < 3; ++z)
-      for (int y = 0; y < 3; ++y)
-        for (int x = 0; x < 3; ++x) ownerOf_[placeOf({x, y, z})] = findOwner({x, y, z});
+  SharedSamples(const SampleGrid& grid, const std::vector<std::uint32_t>& slotOfCell, glm::ivec3 brick) {
+    slots_.fill(kNoBrick);
+    const glm::ivec3 low = glm::max(brick - 1, 0), high = glm::min(brick + 1, grid.brickCounts - 1);
+    for (int z = low.z; z <= high.z; ++z)
+      for (int y = low.y; y <= high.y; ++y) {
+        const std::size_t row = grid.cellOfBrick({0, y, z});
+        for (int x = low.x; x <= high.x; ++x)
+          slots_[placeOf(glm::ivec3(x, y, z) - brick)] = slotOfCell[row + static_cast<std::size_t>(x)];
+      }
   }
 
   SampleRows ownRows() const {
     SampleRows rows = allSamples();
-    forEachForeign([&](std::size_t i, std::size_t, std::size_t, std::size_t count) {
-      rows[i / kBrickSamples] &= static_cast<std::uint8_t>(~(((1u << count) - 1) << (i % kBrickSamples)));
+    forEachForeignSide([&](const SharedSide& side, glm::ivec3) {
+      for (std::size_t i = 0; i < rows.size(); ++i) rows[i] &= side.others[i];
     });
     return rows;
   }
   /// Calls visit(first sample, slot of the owner, its sample, count) for the rows of samples of others.
   template <typename Visit>
   void forEachForeign(Visit visit) const {
-    for (std::size_t sides = 0; sides < ownerOf_.size(); ++sides) {
-      const glm::ivec3 owner = ownerOf_[sides];
-      if (owner == glm::ivec3(0)) continue;
-      const std::size_t slot = slots_[placeOf(owner + 1)];
-      const auto s = static_cast<int>(sides);
-      const Samples x = samplesOn(s % 3), y = samplesOn(s / 3 % 3), z = samplesOn(s / 9);
-      glm::ivec3 sample(x.first, 0, 0);
-      for (sample.z = z.first; sample.z <= z.last; ++sample.z)
-        for (sample.y = y.first; sample.y <= y.last; ++sample.y)
-          visit(sampleIndex(sample), slot, sampleIndex(sample - kBrickCells * owner),
-                static_cast<std::size_t>(x.last - x.first + 1));
-    }
+    forEachForeignSide([&](const SharedSide& side, glm::ivec3 owner) {
+      const std::size_t slot = slots_[placeOf(owner)];
+      const auto count = static_cast<std::size_t>(side.last.x - side.first.x + 1);
+      for (int z = side.first.z; z <= side.last.z; ++z)
+        for (int y = side.first.y; y <= side.last.y; ++y) {
+          const glm::ivec3 sample(side.first.x, y, z);
+          visit(sampleIndex(sample), slot, sampleIndex(sample - kBrickCells * owner), count);
+        }
+    });
   }
 
 private:
-  /// Along an axis: side 0 is the first sample, 2 the last, 1 those between.
-  struct Samples {
-    int first, last;
-  };
-  static Samples samplesOn(int side) {
-    return side == 0 ? Samples{0, 0} : side == 1 ? Samples{1, kBrickCells - 1} : Samples{kBrickCells, kBrickCells};
-  }
-  static std::size_t placeOf(glm::ivec3 sides) { return static_cast<std::size_t>(9 * sides.z + 3 * sides.y + sides.x); }
-  void lookAround() {
-    slots_.fill(kNoBrick);
-    const glm::ivec3 low = glm::max(brick_ - 1, 0), high = glm::min(brick_ + 1, grid_.brickCounts - 1);
-    for (int z = low.z; z <= high.z; ++z)
-      for (int y = low.y; y <= high.y; ++y) {
-        const std::size_t row = grid_.cellOfBrick({0, y, z});
-        for (int x = low.x; x <= high.x; ++x)
-          slots_[placeOf(glm::ivec3(x, y, z) - brick_ + 1)] = slotOfCell_[row + static_cast<std::size_t>(x)];
+  /// Calls visit(side, offset of the owner).
+  template <typename Visit>
+  void forEachForeignSide(Visit visit) const {
+    for (const SharedSide& side : kSharedSides)
+      for (std::size_t i = 0; i < side.neighbourCount; ++i) {
+        if (slots_[placeOf(side.neighbours[i])] == kNoBrick) continue;
+        visit(side, side.neighbours[i]);
+        break;
       }
   }
-  bool exists(glm::ivec3 offset) const { return slots_[placeOf(offset + 1)] != kNoBrick; }
-  /// Bricks that hold samples of these sides: along an axis the one that begins there before the one that ends there.
-  glm::ivec3 findOwner(glm::ivec3 sides) const {
-    const auto steps = [&](glm::length_t axis) { return sides[axis] == 1 ? 1 : 2; };
-    for (int z = 0; z < steps(2); ++z)
-      for (int y = 0; y < steps(1); ++y)
-        for (int x = 0; x < steps(0); ++x) {
-          const glm::ivec3 offset = glm::ivec3(sides.x == 2, sides.y == 2, sides.z == 2) - glm::ivec3(x, y, z);
-          if (exists(offset)) return offset;
-        }
-    return glm::ivec3(0);
-  }
 
-  const SampleGrid& grid_;
-  const std::vector<std::uint32_t>& slotOfCell_;
-  glm::ivec3 brick_;
-  std::array<std::uint32_t, 27> slots_; ///< of the bricks around, by offset + 1
-  std::array<glm::ivec3, 27> ownerOf_;  ///< by sides
+  std::array<std::uint32_t, 27> slots_; ///< of the bricks around, by place
 };
+
+/// How many samples are in rows.
+std::size_t countOf(const SampleRows& rows) {
+  std::array<std::uint64_t, sizeof(SampleRows) / sizeof(std::uint64_t)> words;
+  std::memcpy(words.data(), rows.data(), sizeof(words));
+  std::size_t count = 0;
+  for (const std::uint64_t word : words) count += static_cast<std::size_t>(std::popcount(word));
+  return count;
+}
 
 /// Distances at candidates: each measures its own samples, then takes those that it shares from their owners.
 class CandidateSampler {
@@ -130,9 +162,7 @@ public:
     forEachUneven(candidates_.size(), 2, [&](std::size_t slot) {
       const glm::ivec3 brick = request_.grid.brickOfCell(candidates_[slot]);
       const SampleRows rows = SharedSamples(request_.grid, slotOfCell_, brick).ownRows();
-      std::uint64_t count = 0;
-      for (const std::uint8_t row : rows) count += static_cast<std::uint64_t>(std::popcount(row));
-      queries += count;
+      queries += countOf(rows);
       const std::size_t first = slot * kSamples;
       sampleRows(request_, brick, rows, !request_.isComplete, samplesAt(first));
       request_.done(1);

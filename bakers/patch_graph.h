@@ -3,11 +3,7 @@
 //
 // Two samples p and q with d(p) + d(q) > |p - q| have no triangle between them: the balls around them hold the segment.
 // So a brick falls into patches (flooded over 26 neighbours). Samples very close to a surface that lies askew stay
-// alone that way; a look at a place between finds most of them a neighbour:
-//
-//   p .        p  sample, its ball too small to reach q's
-//    ( m ) q   m  a little off the surface from p: where no triangle comes into a ball around it that meets both, p and
-//   ---------     q have none between them
+// alone that way; to ask each of them for its sign costs less than to find it a neighbour.
 //
 // Samples on the surface are in no patch. Patches of neighbouring bricks meet in the samples that both store, and an
 // empty cell is one patch that joins all of its neighbours.
@@ -30,8 +26,7 @@ namespace brickfield {
 class PatchGraph {
 public:
   /// level  with solid distances; must outlive this
-  /// solid  what they were measured to
-  PatchGraph(const LevelSamples& level, const MeshDistance& solid);
+  explicit PatchGraph(const LevelSamples& level);
 
   std::uint32_t patchCount() const { return first_.back(); }
   /// Of a brick: numbers from .. to - 1.

@@ -72,15 +72,14 @@ std::uint64_t bytesOfBits(std::uint64_t bits) {
 /// Decides regions together and unsteady cells sample by sample.
 class SignFlood {
 public:
-  SignFlood(const LevelSamples& level, const MeshDistance& solid, const InsideTest& test)
-      : level_(level), solid_(solid), test_(test) {}
+  SignFlood(const LevelSamples& level, const InsideTest& test) : level_(level), test_(test) {}
 
   LevelSigns run() {
     LevelSigns signs;
     signs.cellInside.resize(level_.grid.cellCount());
     signs.sampleInside.resize(level_.brickCount() * kSamples);
     // Neither needs the other: one fills the gaps of the other.
-    tbb::parallel_invoke([&] { graph_.emplace(level_, solid_); },
+    tbb::parallel_invoke([&] { graph_.emplace(level_); },
                          [&] {
                            isSteady_ = findSteadyCells(level_.grid, test_);
                            askUnsteadyBricks(signs);
@@ -183,7 +182,6 @@ private:
   }
 
   const LevelSamples& level_;
-  const MeshDistance& solid_;
   const InsideTest& test_;
   std::optional<PatchGraph> graph_;
   std::vector<std::uint8_t> isSteady_; ///< a cell
@@ -192,8 +190,6 @@ private:
 
 } // namespace
 
-LevelSigns floodSigns(const LevelSamples& level, const MeshDistance& solid, const InsideTest& test) {
-  return SignFlood(level, solid, test).run();
-}
+LevelSigns floodSigns(const LevelSamples& level, const InsideTest& test) { return SignFlood(level, test).run(); }
 
 } // namespace brickfield

@@ -14,9 +14,9 @@ struct LevelSigns {
   std::vector<std::uint32_t> mixedCells; ///< ascending: cells, with and without brick, where the sign changes by itself
 };
 
-/// level     with distances to `solid`
+/// level     with distances to solids
 /// returns   1 where inside the solids
 /// proved by tests/bake/bakers/bake_field_test.cpp
-LevelSigns floodSigns(const LevelSamples& level, const MeshDistance& solid, const InsideTest& test);
+LevelSigns floodSigns(const LevelSamples& level, const InsideTest& test);
 
 } // namespace brickfield

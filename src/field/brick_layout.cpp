@@ -101,19 +101,17 @@ inline std::int32_t encodeShare(float share, float distanceVoxels, DistanceForma
 
 } // namespace
 
-void writeBrickDistances(BrickLevel& level, std::uint32_t brickIndex,
-                         std::span<const float, kBrickSampleCount> distancesObject) {
-  const float voxelSize = level.voxelSizeObject, range = level.rangeVoxels;
-  std::byte* to = level.distances.data() + std::size_t{brickIndex} * kBrickSampleCount * bytesPerSample(level.format);
+void writeBrickVoxels(BrickLevel& level, std::size_t brickIndex, std::span<const float, kBrickSampleCount> distances) {
+  const float range = level.rangeVoxels;
+  std::byte* to = level.distances.data() + brickIndex * kBrickSampleCount * bytesPerSample(level.format);
   // A loop for each step, apart from the bytes, which could be anything's: compilers take four samples at once.
-  std::array<float, kBrickSampleCount> voxels, shares;
+  std::array<float, kBrickSampleCount> shares;
   std::array<std::int32_t, kBrickSampleCount> codes;
-  for (std::size_t i = 0; i < kBrickSampleCount; ++i) voxels[i] = distancesObject[i] / voxelSize;
-  for (std::size_t i = 0; i < kBrickSampleCount; ++i) shares[i] = voxels[i] / range;
+  for (std::size_t i = 0; i < kBrickSampleCount; ++i) shares[i] = distances[i] / range;
   for (float& share : shares) share = share < 1.0f ? share : 1.0f; // NaN too
   for (float& share : shares) share = share > -1.0f ? share : -1.0f;
   const auto encode = [&](DistanceFormat format) {
-    for (std::size_t i = 0; i < kBrickSampleCount; ++i) codes[i] = encodeShare(shares[i], voxels[i], format);
+    for (std::size_t i = 0; i < kBrickSampleCount; ++i) codes[i] = encodeShare(shares[i], distances[i], format);
   };
   if (level.format == DistanceFormat::R8Snorm) {
     encode(DistanceFormat::R8Snorm);
@@ -130,7 +128,9 @@ void writeBrickDistances(BrickLevel& level, std::uint32_t brickIndex,
 void appendBrick(BrickLevel& level, glm::ivec3 brick, std::span<const float, kBrickSampleCount> distancesObject) {
   const std::uint32_t brickIndex = level.brickCount();
   level.distances.resize(level.distances.size() + kBrickSampleCount * bytesPerSample(level.format));
-  writeBrickDistances(level, brickIndex, distancesObject);
+  std::array<float, kBrickSampleCount> voxels;
+  for (std::size_t i = 0; i < kBrickSampleCount; ++i) voxels[i] = distancesObject[i] / level.voxelSizeObject;
+  writeBrickVoxels(level, brickIndex, voxels);
   level.indirection[level.cellIndex(brick)] = IndirectionCell::brick(brickIndex).bits;
 }
 

@@ -77,11 +77,11 @@ inline bool isBrickStored(float boundVoxels) { return boundVoxels <= kTouchVoxel
 float rangeVoxelsWithoutClamp(float largestDistanceVoxels);
 
 /// Encodes one brick in place; safe from several threads for different bricks. `distances` must be large enough.
-/// distancesObject metres, negative inside, i fastest
-void writeBrickDistances(BrickLevel& level, std::uint32_t brickIndex,
-                         std::span<const float, kBrickSampleCount> distancesObject);
+/// distances voxels of the level, negative inside, i fastest
+void writeBrickVoxels(BrickLevel& level, std::size_t brickIndex, std::span<const float, kBrickSampleCount> distances);
 
 /// Adds one brick at the end and points its cell at it.
+/// distancesObject metres, negative inside, i fastest
 void appendBrick(BrickLevel& level, glm::ivec3 brick, std::span<const float, kBrickSampleCount> distancesObject);
 
 } // namespace brickfield
