@@ -142,9 +142,11 @@ struct EightCubes {
 /// from the one that is closest to the cube's centre.
 ///
 /// count, placeOf(i)  the list, ascending
-template <typename PlaceOf>
+/// ofNearest          if asked for, gets of each cube the squared distances of its corners to what is closest to its
+///                    centre, infinite where that is too far; and that is not picked then
+template <bool kAsksOfNearest, typename PlaceOf>
 WIDE_INLINE void pick(const BlockFrame* frames, std::size_t count, const PlaceOf& placeOf, const EightCubes& cubes,
-                      float farthest, EightPicks& picks) {
+                      float farthest, EightPicks& picks, Wide* ofNearest) {
   Wide squares[kMostBlockTriangles];
   Wide nearest = wide(HUGE_VALF);
   WideMask nearestAt{};
@@ -158,12 +160,17 @@ WIDE_INLINE void pick(const BlockFrame* frames, std::size_t count, const PlaceOf
   const float radius = kHalfDiagonal * cubes.side;
   const Wide mostFromCenter = wide((farthest + radius + kPickSlackVoxels) * (farthest + radius + kPickSlackVoxels));
   Wide farthestCorners{};
+  if constexpr (kAsksOfNearest) std::fill_n(ofNearest, 8, wide(HUGE_VALF));
   for (unsigned reached = bitsOf(nearest <= mostFromCenter); reached != 0; reached &= reached - 1) {
     const int lane = std::countr_zero(reached);
     const glm::vec3 corner = cubes.first + cubes.apart * glm::vec3(lane & 1, lane >> 1 & 1, lane >> 2);
     const BlockFrame& nearestFrame = frames[placeOf(static_cast<std::size_t>(nearestAt[lane]))];
     const Wide ofCorners = frameDistances(nearestFrame, {corner, cubes.side}).squared;
     farthestCorners[lane] = largestOf(ofCorners);
+    if constexpr (kAsksOfNearest) {
+      ofNearest[lane] = ofCorners;
+      squares[nearestAt[lane]][lane] = HUGE_VALF;
+    }
   }
   const Wide reach = least(rootOf(farthestCorners), wide(farthest)) + wide(radius + kPickSlackVoxels);
   const Wide reachSquared = reach * reach;
@@ -190,12 +197,15 @@ WIDE_INLINE std::array<std::size_t, 8> samplesFrom(glm::ivec3 first) {
 }
 
 /// The 2^3 samples from a sample on.
+///
+/// known  squared distances that they have already
 template <BlockTells kTells>
 WIDE_INLINE void measureEight(const BlockRequest& request, const BlockFrame* frames,
-                              std::span<const std::uint16_t> picked, glm::ivec3 first, const BlockResults& results) {
+                              std::span<const std::uint16_t> picked, const Wide& known, glm::ivec3 first,
+                              const BlockResults& results) {
   const EightPoints points{glm::vec3(first) - kHalfBrick, 1.0f};
   const Wide farthest = wide(request.most * request.most);
-  Wide best = farthest, height = wide(HUGE_VALF), inward = wide(0.0f);
+  Wide best = least(known, farthest), height = wide(HUGE_VALF), inward = wide(0.0f);
   WideMask bestPlace{-1, -1, -1, -1, -1, -1, -1, -1};
   for (const std::uint16_t place : picked) {
     const FrameDistances found = frameDistances<true>(frames[place], points);
@@ -237,16 +247,21 @@ bool isAnyWanted(const BlockRequest& request, glm::ivec3 first) {
 template <BlockTells kTells>
 WIDE_INLINE void measureEighth(const BlockRequest& request, const BlockFrame* frames,
                                std::span<const std::uint16_t> here, glm::ivec3 origin, const BlockResults& results) {
+  // Where triangles are told, those of the same distance have to be measured in their order.
+  constexpr bool kKnowsNearest = kTells == BlockTells::Distances;
   EightPicks picks;
-  pick(
+  Wide ofNearest[8];
+  pick<kKnowsNearest>(
       frames, here.size(), [here](std::size_t i) { return here[i]; }, {glm::vec3(origin) - kHalfBrick, 2.0f, 1.0f},
-      request.most, picks);
+      request.most, picks, ofNearest);
   for (std::size_t eight = 0; eight < 8; ++eight) {
     const auto s = static_cast<int>(eight);
     const glm::ivec3 first = origin + 2 * glm::ivec3(s & 1, s >> 1 & 1, s >> 2);
     const std::span<const std::uint16_t> picked = picks.of(eight);
-    if (!picked.empty() && isAnyWanted(request, first))
-      measureEight<kTells>(request, frames, picked, first, results);
+    const Wide known = kKnowsNearest ? ofNearest[eight] : wide(HUGE_VALF);
+    const bool isNear = kKnowsNearest ? known[0] < HUGE_VALF : !picked.empty();
+    if (isNear && isAnyWanted(request, first))
+      measureEight<kTells>(request, frames, picked, known, first, results);
   }
 }
 
@@ -258,7 +273,7 @@ void measureBlock(const BlockRequest& request, BlockFrame* frames, const BlockRe
   for (std::size_t i = 0; i < count; i += 4) setFrames(frames, i, request);
   EightPicks ofEighths;
   const auto itself = [](std::size_t i) { return i; };
-  pick(frames, count, itself, {glm::vec3(-kHalfBrick), 4.0f, 3.0f}, request.most, ofEighths);
+  pick<false>(frames, count, itself, {glm::vec3(-kHalfBrick), 4.0f, 3.0f}, request.most, ofEighths, nullptr);
   for (std::size_t eighth = 0; eighth < 8; ++eighth) {
     const auto e = static_cast<int>(eighth);
     const glm::ivec3 origin = 4 * glm::ivec3(e & 1, e >> 1 & 1, e >> 2);

@@ -17,6 +17,9 @@ if(BRICKFIELD_PRECOMPILE)
                       -Wno-stringop-overread)
 endif()
 
+# Tests wait for what they test: to optimize them takes longer than they gain.
+add_compile_options($<$<CONFIG:Release>:-O1>)
+
 file(GLOB SUPPORT_SOURCES CONFIGURE_DEPENDS tests/support/*.cpp)
 if(SUPPORT_SOURCES)
   add_library(brickfield_test_support STATIC ${SUPPORT_SOURCES})
@@ -30,6 +33,9 @@ if(SUPPORT_SOURCES)
 endif()
 
 set(CTEST_TIMEOUT_SECONDS 300)
+if(BRICKFIELD_SANITIZE)
+  set(CTEST_TIMEOUT_SECONDS 1200)
+endif()
 foreach(LABEL unit gpu oracle render bake robustness)
   file(GLOB_RECURSE TEST_SOURCES CONFIGURE_DEPENDS tests/${LABEL}/*_test.cpp)
   set(FOLDERS "")
