@@ -260,8 +260,7 @@ WIDE_INLINE void measureEighth(const BlockRequest& request, const BlockFrame* fr
     const std::span<const std::uint16_t> picked = picks.of(eight);
     const Wide known = kKnowsNearest ? ofNearest[eight] : wide(HUGE_VALF);
     const bool isNear = kKnowsNearest ? known[0] < HUGE_VALF : !picked.empty();
-    if (isNear && isAnyWanted(request, first))
-      measureEight<kTells>(request, frames, picked, known, first, results);
+    if (isNear && isAnyWanted(request, first)) measureEight<kTells>(request, frames, picked, known, first, results);
   }
 }
 
