@@ -53,7 +53,6 @@ public:
   }
 
   /// Once for each brick, from any thread. A loop for each step, without branches.
-  ///
   BrickVoxels unite(std::size_t b) {
     const std::size_t begin = b * kSamples;
     float* distances = &result_.distances[begin];

@@ -16,7 +16,7 @@ namespace brickfield {
 
 namespace {
 
-constexpr float kSegmentSlackVoxels = 1e-4f; // over the rounding of distances to float
+constexpr float kSegmentSlackVoxels = 1e-5f; // over the errors of two distances, 2e-6 each
 
 /// Samples from whose place a step along an axis stays in the brick: a slice's, by columns or rows.
 constexpr std::uint64_t columnsFor(int x) { return 0x0101010101010101u * (x > 0 ? 0x7fu : x < 0 ? 0xfeu : 0xffu); }
@@ -45,7 +45,8 @@ void forEachNumber(std::index_sequence<kNumbers...>, const Visit& visit) {
 
 SampleMask samplesOffSurface(const float* distances) {
   SampleMask mask;
-  BRICKFIELD_BEST_SIMD(markPositive(distances, mask));
+  // Nearer ones are alone even over a plane along the grid: the balls around them and what is above them do not meet.
+  BRICKFIELD_BEST_SIMD(markAbove(distances, 0.5f * kSegmentSlackVoxels, mask));
   return mask;
 }
 

@@ -24,7 +24,8 @@ void forEachSample(const SampleMask& mask, const Visit& visit) {
       visit(64 * z + static_cast<std::size_t>(std::countr_zero(rest)));
 }
 
-/// Samples that a triangle goes through: they have no side, and no neighbour can be told to lie on theirs.
+/// Not those that a triangle goes through, or within 5e-6 voxels of: they have no side, and no neighbour can be told to
+/// lie on theirs.
 SampleMask samplesOffSurface(const float* distances);
 /// Samples with values below a limit.
 SampleMask samplesBelow(const float* values, float limit);

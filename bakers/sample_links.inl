@@ -19,9 +19,9 @@ WIDE_INLINE void mark(const float* samples, SampleMask& mask, const Test& test) 
     mask[z] = bits;
   }
 }
-inline void markPositive(const float* samples, SampleMask& mask) {
+inline void markAbove(const float* samples, float limit, SampleMask& mask) {
   mark(
-      samples, mask, [](const Wide& v) __attribute__((always_inline)) { return v > wide(0.0f); });
+      samples, mask, [limit](const Wide& v) __attribute__((always_inline)) { return v > wide(limit); });
 }
 inline void markBelow(const float* samples, float limit, SampleMask& mask) {
   mark(

@@ -159,7 +159,8 @@ private:
     });
   }
 
-  /// Cells with patches of two signs, and those where patches that meet disagree.
+  /// Cells with patches of two signs, and those where patches that meet disagree. Not those where the sign changes only
+  /// beside samples that are patches of their own: openings narrower than a voxel, which the field hides anyway.
   std::vector<std::uint32_t> findMixedCells() const {
     std::vector<std::uint8_t> isMixed(graph_->patchCount(), 0);
     for (std::uint32_t patch = 0; patch < graph_->patchCount(); ++patch)

@@ -86,7 +86,10 @@ void runFieldBench(const FieldBenchRequest& request) {
             {"gpu", context->info().renderer},
             {"driver", context->info().version},
             {"frames", request.frames}};
-  json.update(request.moverCounts.empty() ? measureTables(setting) : Json{{"movers", benchMovers(setting)}});
+  if (request.moverCounts.empty())
+    json.update(measureTables(setting));
+  else
+    json["movers"] = benchMovers(setting);
   if (const std::vector<std::string> errors = context->takeGlErrors(); !errors.empty())
     throw Failure("OpenGL: " + errors.front());
   if (!request.json.empty()) writeFile(request.json, json.dump(2) + "\n");

@@ -76,7 +76,7 @@ inline bool isBrickStored(float boundVoxels) { return boundVoxels <= kTouchVoxel
 /// Range that clamps no distance of a level whose largest absolute one is given: whole voxels, at least 4.
 float rangeVoxelsWithoutClamp(float largestDistanceVoxels);
 
-/// Encodes one brick in place; safe from several threads for different bricks. `distances` must be large enough.
+/// Encodes one brick in place; safe from several threads for different bricks. `level.distances` must be large enough.
 /// distances voxels of the level, negative inside, i fastest
 void writeBrickVoxels(BrickLevel& level, std::size_t brickIndex, std::span<const float, kBrickSampleCount> distances);
 

@@ -94,6 +94,25 @@ TEST(BakeMemory, NumberIsThatOfTheProcess) {
   }
 }
 
+// The faces are 4e-6 and 8e-6 voxels off the samples beside them.
+TEST(BakeMemory, FacesAlongTheGridTakeNoMore) {
+  if (kCountsMore) GTEST_SKIP() << "a sanitizer's memory counts too";
+  MeshCase box;
+  box.addBox(glm::vec3(-1), glm::vec3(1));
+  BakeSettings settings;
+  settings.resolution = 384;
+  settings.attributes = false;
+  settings.memoryBytes = 1 << 20;
+  const double needed = mebibytesIn(refusal(box.input(), settings));
+  settings.memoryBytes = 0;
+  resetPeak();
+  const std::uint64_t before = statusBytes("VmRSS:");
+  bakeField(box.input(), settings);
+  const double taken = static_cast<double>(statusBytes("VmHWM:") - before) / (1024 * 1024);
+  fmt::print("{:.0f} MiB needed, {:.0f} taken\n", needed, taken);
+  EXPECT_LE(taken, 1.05 * needed + 16);
+}
+
 TEST(BakeMemory, MostIsNeverExceeded) {
   // A cloud of small boxes reaches into every brick.
   MeshCase cloud;
