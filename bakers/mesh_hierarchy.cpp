@@ -9,10 +9,12 @@
 #include <bit>
 #include <cmath>
 #include <memory>
-#include <numeric>
+#include <utility>
+#include <vector>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 namespace brickfield {
 
@@ -257,18 +259,31 @@ std::uint32_t hilbertCode(std::array<std::uint32_t, 3> cell) {
   return code;
 }
 
-/// By the upper half of each; those that agree in it stay in their order.
+/// By the upper half of each; those that agree in it stay in their order. Digit by digit, each block of keys to where
+/// those before it leave room.
 void sortByCode(LargeVector<std::uint64_t>& keys) {
   constexpr std::uint32_t kDigitBits = 10, kDigits = 3 * kHilbertBits / kDigitBits;
+  constexpr std::size_t kKeysAtATime = 1u << 15;
+  using Places = std::array<std::uint32_t, 1u << kDigitBits>;
+  const std::size_t blocks = (keys.size() + kKeysAtATime - 1) / kKeysAtATime;
   LargeVector<std::uint64_t> sorted(keys.size());
+  std::vector<Places> places(blocks);
   for (std::uint32_t digit = 0; digit < kDigits; ++digit) {
-    const auto digitOf = [shift = 32 + kDigitBits * digit](std::uint64_t key) {
-      return static_cast<std::size_t>(key >> shift & ((1u << kDigitBits) - 1));
+    const auto forEachOf = [&](std::size_t block, const auto& visit) {
+      const std::size_t end = std::min(keys.size(), (block + 1) * kKeysAtATime);
+      for (std::size_t i = block * kKeysAtATime; i < end; ++i)
+        visit(keys[i], static_cast<std::size_t>(keys[i] >> (32 + kDigitBits * digit) & ((1u << kDigitBits) - 1)));
     };
-    std::array<std::size_t, (1u << kDigitBits) + 1> first{};
-    for (const std::uint64_t key : keys) ++first[digitOf(key) + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    for (const std::uint64_t key : keys) sorted[first[digitOf(key)]++] = key;
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      places[block].fill(0);
+      forEachOf(block, [&](std::uint64_t, std::size_t value) { ++places[block][value]; });
+    });
+    std::uint32_t next = 0;
+    for (std::size_t value = 0; value < places[0].size(); ++value)
+      for (Places& ofBlock : places) next += std::exchange(ofBlock[value], next);
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      forEachOf(block, [&](std::uint64_t key, std::size_t value) { sorted[places[block][value]++] = key; });
+    });
     keys.swap(sorted);
   }
 }
@@ -304,11 +319,20 @@ public:
 
 private:
   void sortAlongCurve() {
-    ItemBox centers;
-    for (const std::uint32_t triangle : triangles_) {
-      const Float4 center = centerOf(triangle);
-      centers.extend(center, center);
-    }
+    using Block = tbb::blocked_range<std::size_t>;
+    const ItemBox centers = tbb::parallel_reduce(
+        Block(0, triangles_.size(), kParallelRange), ItemBox{},
+        [&](const Block& block, ItemBox box) {
+          for (std::size_t i = block.begin(); i < block.end(); ++i) {
+            const Float4 center = centerOf(triangles_[i]);
+            box.extend(center, center);
+          }
+          return box;
+        },
+        [](ItemBox a, const ItemBox& b) {
+          a.extend(b.min, b.max);
+          return a;
+        });
     const Float4 side = centers.max - centers.min;
     const float scale =
         0.9999f * static_cast<float>(1u << kHilbertBits) / std::max({side[0], side[1], side[2], 1e-30f});
