@@ -9,12 +9,13 @@
 #include <bit>
 #include <cmath>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
+
+#include "bakers/stable_deal.h"
 
 namespace brickfield {
 
@@ -259,31 +260,16 @@ std::uint32_t hilbertCode(std::array<std::uint32_t, 3> cell) {
   return code;
 }
 
-/// By the upper half of each; those that agree in it stay in their order. Digit by digit, each block of keys to where
-/// those before it leave room.
+/// By the upper half of each, digit by digit; those that agree in it stay in their order.
 void sortByCode(LargeVector<std::uint64_t>& keys) {
   constexpr std::uint32_t kDigitBits = 10, kDigits = 3 * kHilbertBits / kDigitBits;
-  constexpr std::size_t kKeysAtATime = 1u << 15;
-  using Places = std::array<std::uint32_t, 1u << kDigitBits>;
-  const std::size_t blocks = (keys.size() + kKeysAtATime - 1) / kKeysAtATime;
+  constexpr std::size_t kValues = std::size_t{1} << kDigitBits;
   LargeVector<std::uint64_t> sorted(keys.size());
-  std::vector<Places> places(blocks);
   for (std::uint32_t digit = 0; digit < kDigits; ++digit) {
-    const auto forEachOf = [&](std::size_t block, const auto& visit) {
-      const std::size_t end = std::min(keys.size(), (block + 1) * kKeysAtATime);
-      for (std::size_t i = block * kKeysAtATime; i < end; ++i)
-        visit(keys[i], static_cast<std::size_t>(keys[i] >> (32 + kDigitBits * digit) & ((1u << kDigitBits) - 1)));
-    };
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      places[block].fill(0);
-      forEachOf(block, [&](std::uint64_t, std::size_t value) { ++places[block][value]; });
-    });
-    std::uint32_t next = 0;
-    for (std::size_t value = 0; value < places[0].size(); ++value)
-      for (Places& ofBlock : places) next += std::exchange(ofBlock[value], next);
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      forEachOf(block, [&](std::uint64_t key, std::size_t value) { sorted[places[block][value]++] = key; });
-    });
+    dealStably(
+        keys.size(), kValues,
+        [&, shift = 32 + kDigitBits * digit](std::size_t i) { return keys[i] >> shift & (kValues - 1); },
+        [&](std::size_t i, std::uint32_t place) { sorted[place] = keys[i]; });
     keys.swap(sorted);
   }
 }

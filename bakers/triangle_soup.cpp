@@ -3,7 +3,6 @@
 #include "bakers/triangle_soup.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <span>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "bakers/stable_deal.h"
 #include "core/error.h"
 
 namespace brickfield {
@@ -58,8 +58,6 @@ public:
 
 private:
   static constexpr std::size_t kMostShares = 256, kVerticesAShare = 4096;
-  static constexpr std::size_t kVerticesAtATime = 16384;
-  using Counts = std::array<std::uint32_t, kMostShares>;
 
   static std::uint64_t hash(glm::vec3 p) {
     std::uint64_t h = std::bit_cast<std::uint32_t>(p.x);
@@ -71,27 +69,11 @@ private:
 
   /// By share, each in the order of the vertices.
   void deal() {
-    const std::size_t count = firstAt_.size(), blocks = (count + kVerticesAtATime - 1) / kVerticesAtATime;
-    const auto forEachOf = [&](std::size_t block, const auto& visit) {
-      const std::size_t end = std::min(count, (block + 1) * kVerticesAtATime);
-      for (std::size_t v = block * kVerticesAtATime; v < end; ++v)
-        visit(static_cast<std::uint32_t>(v), shareOf(hash(vertices_.at(static_cast<std::uint32_t>(v)))));
-    };
-    std::vector<Counts> places(blocks);
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      places[block].fill(0);
-      forEachOf(block, [&](std::uint32_t, std::size_t share) { ++places[block][share]; });
-    });
-    std::uint32_t next = 0;
-    for (std::size_t share = 0; share < shareCount_; ++share) {
-      begin_[share] = next;
-      for (Counts& ofBlock : places) next += std::exchange(ofBlock[share], next);
-    }
-    begin_[shareCount_] = next;
-    dealt_.resize(count);
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-      forEachOf(block, [&](std::uint32_t vertex, std::size_t share) { dealt_[places[block][share]++] = vertex; });
-    });
+    dealt_.resize(firstAt_.size());
+    begin_ = dealStably(
+        firstAt_.size(), shareCount_,
+        [&](std::size_t v) { return shareOf(hash(vertices_.at(static_cast<std::uint32_t>(v)))); },
+        [&](std::size_t v, std::uint32_t place) { dealt_[place] = static_cast<std::uint32_t>(v); });
   }
   void weld(std::size_t share) {
     const std::span<const std::uint32_t> own(dealt_.data() + begin_[share], begin_[share + 1] - begin_[share]);
@@ -110,7 +92,7 @@ private:
   LargeVector<std::uint32_t> firstAt_;
   std::size_t shareCount_; ///< a power of two
   LargeVector<std::uint32_t> dealt_;
-  std::array<std::uint32_t, kMostShares + 1> begin_{}; ///< a share: of dealt_
+  std::vector<std::uint32_t> begin_; ///< a share: of dealt_
 };
 
 void checkPrimitive(const BakeInput& input, std::size_t primitiveIndex) {
